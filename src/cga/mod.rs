@@ -1,0 +1,1 @@
+//! Rules: `SourceFile → Ast → Program`.

@@ -1,0 +1,55 @@
+//! Polygon meshes in space: faces keep their holes until triangles are needed.
+
+use glam::{DVec2, DVec3};
+
+/// One planar face. Loops index [`Mesh::positions`]; the outer loop is counter-clockwise seen from outside,
+/// hole loops run the other way. The first edge runs from corner 0 to corner 1.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Face {
+    pub outer: Vec<u32>,
+    pub holes: Vec<Vec<u32>>,
+    /// Texture coordinates per uv set, sorted by set: one value per corner, the outer loop first, then the holes.
+    pub uvs: Vec<(u8, Vec<DVec2>)>,
+}
+
+/// A polygon mesh in metres.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Mesh {
+    pub positions: Vec<DVec3>,
+    pub faces: Vec<Face>,
+}
+
+impl Face {
+    pub fn new(outer: Vec<u32>) -> Self {
+        Face { outer, ..Face::default() }
+    }
+
+    /// Outer loop, then holes.
+    pub fn loops(&self) -> impl Iterator<Item = &Vec<u32>> {
+        std::iter::once(&self.outer).chain(&self.holes)
+    }
+
+    /// Corner coordinates of a uv set, if the face has it.
+    pub fn uv(&self, set: u8) -> Option<&[DVec2]> {
+        self.uvs.iter().find(|(s, _)| *s == set).map(|(_, uv)| uv.as_slice())
+    }
+}
+
+impl Mesh {
+    /// Newell's vector of the outer loop: its length is twice the area of the face, its direction the outward normal.
+    pub fn newell(&self, face: &Face) -> DVec3 {
+        let Some(&first) = face.outer.first() else { return DVec3::ZERO };
+        let o = self.positions[first as usize];
+        let mut sum = DVec3::ZERO;
+        for w in face.outer.windows(2) {
+            sum += (self.positions[w[0] as usize] - o).cross(self.positions[w[1] as usize] - o);
+        }
+        sum
+    }
+
+    /// Least and greatest coordinates; `None` for an empty mesh.
+    pub fn bounds(&self) -> Option<(DVec3, DVec3)> {
+        let &first = self.positions.first()?;
+        Some(self.positions.iter().fold((first, first), |(lo, hi), &p| (lo.min(p), hi.max(p))))
+    }
+}

@@ -1,0 +1,50 @@
+//! What a derivation gives: the leaves with their meshes, the reports and the prints.
+
+use std::sync::Arc;
+
+use super::material::Material;
+use crate::diagnostics::Diagnostics;
+use crate::geometry::Mesh;
+
+/// A value of the rule language as it leaves the interpreter.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Scalar {
+    Float(f64),
+    Bool(bool),
+    String(Arc<str>),
+}
+
+/// One terminal shape, in world coordinates of the start shape (metres, y up, z south).
+#[derive(Clone, Debug)]
+pub struct Leaf {
+    /// The symbol that was not rewritten, such as `Wall` or `roof.Tile`.
+    pub rule: Arc<str>,
+    /// Index of the leaf's creation path, for stable identity.
+    pub path: Arc<[u32]>,
+    /// Generic attributes at this leaf, sorted by name (shared between leaves that did not change them).
+    pub attributes: Arc<[(Arc<str>, Scalar)]>,
+    pub material: Arc<Material>,
+    pub mesh: Mesh,
+}
+
+/// Summary of one `report` key.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Report {
+    pub name: Arc<str>,
+    pub count: u64,
+    pub sum: f64,
+    pub min: f64,
+    pub max: f64,
+}
+
+/// The result of deriving one start shape.
+#[derive(Clone, Debug, Default)]
+pub struct ShapeTree {
+    /// Depth first, in creation order.
+    pub leaves: Vec<Leaf>,
+    /// Sorted by name.
+    pub reports: Vec<Report>,
+    pub prints: Vec<String>,
+    /// Warnings and errors met while deriving; with an error the leaves are those made before it.
+    pub diagnostics: Diagnostics,
+}

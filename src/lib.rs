@@ -1,0 +1,32 @@
+//! Mansard: a compiler for declarative city scenes.
+//!
+//! Each phase takes one type and gives another; a later type can only be made by its phase.
+//!
+//! | phase | module | takes | gives |
+//! | --- | --- | --- | --- |
+//! | Source | [`source`] | paths | [`source::SourceFile`] |
+//! | Rules | [`cga`] | `SourceFile` | [`cga::program::Program`] |
+//! | Map and elevation | [`geodata`] | files | [`geodata::site::Site`] |
+//! | Derivation | [`interpreter`] | `Program` + start shape + seed | [`interpreter::tree::ShapeTree`] |
+//! | Scene | [`scene`] | `ShapeTree`s + terrain | [`scene::Scene`] |
+//! | Recipe | [`spec`] | `SourceFile` | [`spec::render_spec::RenderSpec`] |
+//! | Plan | [`plan`] | `RenderSpec` + scene summary | [`plan::RenderPlan`] |
+//! | Render | [`gpu`] | `RenderPlan` + `Scene` | [`frame::Frame`] |
+//! | Dataset | [`dataset`] | `Frame`s + labels | files |
+//!
+//! A module uses only what stands above it in this list; `tests/it/tidy.rs` holds us to it.
+
+pub mod source;
+pub mod diagnostics;
+pub mod parsing;
+pub mod cga;
+pub mod geometry;
+pub mod geodata;
+pub mod interpreter;
+pub mod scene;
+pub mod spec;
+pub mod plan;
+pub mod frame;
+pub mod gpu;
+pub mod dataset;
+pub mod pipeline;

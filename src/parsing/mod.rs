@@ -1,0 +1,1 @@
+//! What both languages share about pest: spans, recovery, error wording.

@@ -1,0 +1,121 @@
+//! What every view asks for, with all draws made: numbers only, no distributions, no defaults left open.
+
+use glam::DVec3;
+
+/// How space is projected onto the image. Pixel (i, j) covers [i, i+1) × [j, j+1), j downwards, centre at +0.5.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Projection {
+    /// Half extents of the image plane at distance 1 (tangents of the half angles).
+    Perspective { tan_x: f64, tan_y: f64 },
+    /// Half extents of the image in metres.
+    Orthographic { half_x: f64, half_y: f64 },
+}
+
+/// A camera in world metres (x east, y up, z south). `right`, `up`, `forward` are orthonormal,
+/// `right × up = -forward`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Camera {
+    pub position: DVec3,
+    pub right: DVec3,
+    pub up: DVec3,
+    pub forward: DVec3,
+    pub projection: Projection,
+    /// Pixels.
+    pub width: u32,
+    pub height: u32,
+    /// Distance of the near plane, metres; the far plane is at infinity (reverse-Z).
+    pub near: f64,
+}
+
+/// The sun as the renderer needs it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sun {
+    /// Unit vector from the ground towards the sun; `y > 0`.
+    pub direction: DVec3,
+    /// Angular diameter of the disc, degrees (0 for a point).
+    pub disc_deg: f64,
+    /// Irradiance on a surface facing the sun, linear RGB, 1 is the brightness that a white diffuse surface shows as white.
+    pub irradiance: [f64; 3],
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shadows {
+    Off,
+    Hard,
+    Soft,
+}
+
+/// Light that comes from everywhere.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Ambient {
+    Off,
+    /// The same radiance from every direction, linear RGB.
+    Constant([f64; 3]),
+    /// A sky dome over a ground: irradiance goes with the normal from `ground` (down) to `zenith` (up), linear RGB.
+    Sky { zenith: [f64; 3], ground: [f64; 3] },
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum State {
+    Before,
+    After,
+}
+
+/// Which objects a pass draws.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Selection {
+    pub state: State,
+    /// One flag per object of the scene.
+    pub objects: std::sync::Arc<[bool]>,
+}
+
+/// What a pass writes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Output {
+    /// sRGB image, 8 bit.
+    Color,
+    /// 8-bit semantic class numbers.
+    Class,
+    /// 0 or 255: pixels whose nearest selected object belongs to the pass's `marked` objects.
+    Mask,
+    /// 8-bit change level (0 unchanged).
+    Level,
+    /// 32-bit instance numbers.
+    Instance,
+    /// Distance along the viewing direction in metres, 32-bit float; infinite where nothing is.
+    Depth,
+}
+
+/// One image of one view.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OutputDemand {
+    /// Name of the recipe's pass.
+    pub pass: String,
+    pub output: Output,
+    pub selection: Selection,
+    /// For [`Output::Mask`]: one flag per object.
+    pub marked: Option<std::sync::Arc<[bool]>>,
+    pub shadows: Shadows,
+    pub ambient: Ambient,
+}
+
+/// Settings that trade accuracy for time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Quality {
+    /// Samples per pixel side (2 means 2 × 2 samples).
+    pub supersample: u32,
+    /// Texels per side of the shadow map.
+    pub shadow_map: u32,
+    /// Samples of the shadow filter per side.
+    pub shadow_samples: u32,
+}
+
+/// One view with everything drawn.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ViewDemand {
+    pub name: String,
+    pub camera: Camera,
+    pub sun: Option<Sun>,
+    pub quality: Quality,
+    pub outputs: Vec<OutputDemand>,
+}

@@ -1,0 +1,7 @@
+//! Scene: shape trees + terrain → meshes with materials and integer labels, ready for export and rendering.
+//!
+//! World axes: x east, y up, z south, metres about the site's one origin.
+
+pub mod model;
+
+pub use model::{Group, Presence, Scene, SceneClass, SceneObject, TriMesh};

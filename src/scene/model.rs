@@ -1,0 +1,78 @@
+//! The scene's types: what export and renderer read.
+
+use std::sync::Arc;
+
+use glam::{DVec3, Vec2, Vec3};
+
+use crate::geodata::feature::FeatureId;
+use crate::interpreter::material::Material;
+
+/// In which of the two states of the scene an object exists.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Presence {
+    Both,
+    BeforeOnly,
+    AfterOnly,
+}
+
+/// Semantic class; the number is the label written to class images (0 is no object).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[repr(u8)]
+pub enum SceneClass {
+    Terrain = 1,
+    Building = 2,
+    Highway = 3,
+    Landuse = 4,
+    Natural = 5,
+    Leisure = 6,
+    Water = 7,
+}
+
+/// Triangles `first..first + count` of a mesh share one material of the scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Group {
+    pub material: u32,
+    pub first: u32,
+    pub count: u32,
+}
+
+/// Triangles with separate normals (one vertex per face corner): positions in f64 metres about the scene's origin.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct TriMesh {
+    pub positions: Vec<DVec3>,
+    /// Unit normals, one per position.
+    pub normals: Vec<Vec3>,
+    /// Texture coordinates of uv set 0, one per position (zero where the face has none).
+    pub uvs: Vec<Vec2>,
+    pub triangles: Vec<[u32; 3]>,
+    /// In order, covering all triangles.
+    pub groups: Vec<Group>,
+}
+
+/// One feature of the scene in one state.
+#[derive(Clone, Debug)]
+pub struct SceneObject {
+    /// `None` for the terrain.
+    pub feature: Option<FeatureId>,
+    /// Label in instance images, from 1; equal for the before and after states of one feature.
+    pub instance: u32,
+    pub class: SceneClass,
+    pub presence: Presence,
+    /// Number of the change block that touched the feature, from 1; 0 for unchanged features.
+    pub change: u16,
+    /// Level (damage grade) within the change, from 1; 0 for unchanged features.
+    pub level: u8,
+    pub mesh: TriMesh,
+}
+
+/// Everything that is drawn or exported.
+#[derive(Clone, Debug, Default)]
+pub struct Scene {
+    /// Sorted by instance, then presence.
+    pub objects: Vec<SceneObject>,
+    pub materials: Vec<Arc<Material>>,
+    /// Textures by name, decoded, as named by [`Material::colormap`], sorted by name.
+    pub textures: Vec<(Arc<str>, Arc<image::RgbaImage>)>,
+    /// Least and greatest corner of all objects, metres; both zero for an empty scene.
+    pub bounds: (DVec3, DVec3),
+}

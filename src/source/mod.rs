@@ -1,0 +1,10 @@
+//! Text and where it came from; the only door for reading files.
+//!
+//! In: paths named by the user or by another file. Out: [`SourceFile`]s with stable ids, bytes, and the
+//! [`Access`] rule that keeps every path inside the allowed folders.
+
+mod access;
+mod map;
+
+pub use access::{Access, AccessError};
+pub use map::{Place, SourceFile, SourceId, SourceMap, Span};

@@ -1,0 +1,1 @@
+//! Render spec: `SourceFile → SpecAst → RenderSpec`.
