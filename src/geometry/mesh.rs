@@ -29,6 +29,16 @@ impl Face {
         std::iter::once(&self.outer).chain(&self.holes)
     }
 
+    /// Vertex indices of all corners: the outer loop, then the holes.
+    pub fn corners(&self) -> impl Iterator<Item = u32> + '_ {
+        self.loops().flatten().copied()
+    }
+
+    /// Edges (from, to) of all loops in order: the face-edge index of CGA counts these.
+    pub fn edges(&self) -> impl Iterator<Item = (u32, u32)> + '_ {
+        self.loops().flat_map(|l| (0..l.len()).map(move |i| (l[i], l[(i + 1) % l.len()])))
+    }
+
     /// Corner coordinates of a uv set, if the face has it.
     pub fn uv(&self, set: u8) -> Option<&[DVec2]> {
         self.uvs.iter().find(|(s, _)| *s == set).map(|(_, uv)| uv.as_slice())
@@ -38,13 +48,32 @@ impl Face {
 impl Mesh {
     /// Newell's vector of the outer loop: its length is twice the area of the face, its direction the outward normal.
     pub fn newell(&self, face: &Face) -> DVec3 {
-        let Some(&first) = face.outer.first() else { return DVec3::ZERO };
+        self.newell_of(&face.outer)
+    }
+
+    fn newell_of(&self, ring: &[u32]) -> DVec3 {
+        let Some(&first) = ring.first() else { return DVec3::ZERO };
         let o = self.positions[first as usize];
         let mut sum = DVec3::ZERO;
-        for w in face.outer.windows(2) {
+        for w in ring.windows(2) {
             sum += (self.positions[w[0] as usize] - o).cross(self.positions[w[1] as usize] - o);
         }
         sum
+    }
+
+    /// Newell's vector of all loops, holes included: half its length is the area of the face less its holes.
+    pub fn area_vector(&self, face: &Face) -> DVec3 {
+        face.loops().map(|l| self.newell_of(l)).sum()
+    }
+
+    /// The unit normal, zero for a face without area (cga-reference C.4).
+    pub fn normal(&self, face: &Face) -> DVec3 {
+        self.newell(face).normalize_or_zero()
+    }
+
+    /// Area less holes, square metres.
+    pub fn area(&self, face: &Face) -> f64 {
+        self.area_vector(face).length() / 2.0
     }
 
     /// Least and greatest coordinates; `None` for an empty mesh.

@@ -3,8 +3,18 @@
 //! In: rings and face lists in f64 metres. Out: checked polygons, skeletons, roofs, cuts, meshes.
 //! Plan coordinates are (x, y) with y up the page (north), counter-clockwise outlines; space is (x, y, z) with y up.
 
+pub mod boolean;
+pub mod cut;
+pub mod extrude;
 pub mod mesh;
+pub mod mesh_checks;
+pub mod plane;
 pub mod polygon;
+pub mod polygon_checks;
+pub mod repair;
+pub mod transform;
+pub mod triangulate;
 
 pub use mesh::{Face, Mesh};
+pub use plane::{Plane, PlaneFrame};
 pub use polygon::{Polygon, Ring};

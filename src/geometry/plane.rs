@@ -1,0 +1,98 @@
+//! Planes and plane frames. In: points and normals in space. Out: signed distances, and a face seen as a plan polygon.
+
+use glam::{DVec2, DVec3};
+
+use super::{Face, Mesh, Polygon};
+
+/// The plane `normal . p = offset`; `normal` has length 1 and points to the front. Metres.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Plane {
+    pub normal: DVec3,
+    pub offset: f64,
+}
+
+impl Plane {
+    /// `None` if the normal has no direction (zero or not finite).
+    pub fn through(point: DVec3, normal: DVec3) -> Option<Plane> {
+        let normal = normal.try_normalize()?;
+        Some(Plane { normal, offset: normal.dot(point) })
+    }
+
+    /// Metres in front of the plane, negative behind it.
+    pub fn signed_distance(&self, p: DVec3) -> f64 {
+        self.normal.dot(p) - self.offset
+    }
+
+    pub fn flipped(&self) -> Plane {
+        Plane { normal: -self.normal, offset: -self.offset }
+    }
+}
+
+/// A right-handed orthonormal frame `u`, `v`, `normal` at `origin`: plan coordinates of a plane in space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlaneFrame {
+    pub origin: DVec3,
+    pub u: DVec3,
+    pub v: DVec3,
+    pub normal: DVec3,
+}
+
+impl PlaneFrame {
+    /// The ground plan: (x, y) of the plan is (x, -z) of the world, so coordinates pass through unchanged.
+    pub const PLAN: PlaneFrame =
+        PlaneFrame { origin: DVec3::ZERO, u: DVec3::X, v: DVec3::NEG_Z, normal: DVec3::Y };
+
+    /// Origin at corner 0 of the face. A level face has `u` = +x exactly (so no coordinate is rotated), any other
+    /// has `u` level and `v` rising: (along, up) on a wall. `None` if the face has no area.
+    pub fn of_face(mesh: &Mesh, face: &Face) -> Option<PlaneFrame> {
+        let origin = mesh.positions[*face.outer.first()? as usize];
+        let normal = mesh.newell(face).try_normalize()?;
+        let level = normal.x == 0.0 && normal.z == 0.0;
+        let u = if level { DVec3::X } else { DVec3::Y.cross(normal).try_normalize()? };
+        Some(PlaneFrame { origin, u, v: normal.cross(u), normal })
+    }
+
+    /// Origin at corner 0, `u` along the first edge, `v` in the plane to the inside: the axes of a component face
+    /// (compatibility notes, "Scope of a component face"). `None` if the face or its first edge has no extent.
+    pub fn along_first_edge(mesh: &Mesh, face: &Face) -> Option<PlaneFrame> {
+        let (&a, &b) = (face.outer.first()?, face.outer.get(1)?);
+        let origin = mesh.positions[a as usize];
+        let normal = mesh.newell(face).try_normalize()?;
+        let edge = mesh.positions[b as usize] - origin;
+        let u = (edge - normal * normal.dot(edge)).try_normalize()?;
+        Some(PlaneFrame { origin, u, v: normal.cross(u), normal })
+    }
+
+    /// Plan coordinates of the foot of the perpendicular from `p`.
+    pub fn to_plan(&self, p: DVec3) -> DVec2 {
+        let d = p - self.origin;
+        DVec2::new(d.dot(self.u), d.dot(self.v))
+    }
+
+    /// The point `height` metres in front of the plane above plan point `q`.
+    pub fn to_space(&self, q: DVec2, height: f64) -> DVec3 {
+        self.origin + self.u * q.x + self.v * q.y + self.normal * height
+    }
+
+    pub fn plane(&self) -> Plane {
+        Plane { normal: self.normal, offset: self.normal.dot(self.origin) }
+    }
+
+    /// The face's loops in plan coordinates; the outer ring is counter-clockwise if this is the face's own frame.
+    pub fn face_to_plan(&self, mesh: &Mesh, face: &Face) -> Polygon {
+        let ring = |l: &Vec<u32>| l.iter().map(|&i| self.to_plan(mesh.positions[i as usize])).collect();
+        Polygon { outer: ring(&face.outer), holes: face.holes.iter().map(ring).collect() }
+    }
+
+    /// Appends a plan polygon as one face at `height` in front of the plane; vertices are the rings in order.
+    pub fn push_face(&self, mesh: &mut Mesh, polygon: &Polygon, height: f64) {
+        let mut add = |ring: &[DVec2]| -> Vec<u32> {
+            let start = mesh.positions.len() as u32;
+            mesh.positions.extend(ring.iter().map(|&q| self.to_space(q, height)));
+            (start..start + ring.len() as u32).collect()
+        };
+        let outer = add(&polygon.outer);
+        let holes = polygon.holes.iter().map(|h| add(h)).collect();
+        mesh.faces.push(Face { outer, holes, uvs: Vec::new() });
+    }
+}
