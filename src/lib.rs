@@ -16,6 +16,7 @@
 //!
 //! A module uses only what stands above it in this list; `tests/it/tidy.rs` holds us to it.
 
+pub mod output;
 pub mod source;
 pub mod diagnostics;
 pub mod parsing;
@@ -23,6 +24,7 @@ pub mod cga;
 pub mod geometry;
 pub mod geodata;
 pub mod interpreter;
+pub mod town;
 pub mod scene;
 pub mod spec;
 pub mod plan;
