@@ -6,12 +6,18 @@
 pub mod boolean;
 pub mod cut;
 pub mod extrude;
+pub mod grid;
 pub mod mesh;
 pub mod mesh_checks;
+pub mod offset;
+pub mod orientation;
 pub mod plane;
 pub mod polygon;
 pub mod polygon_checks;
+pub mod predicates;
 pub mod repair;
+pub mod roof;
+pub mod skeleton;
 pub mod transform;
 pub mod triangulate;
 

@@ -1,0 +1,1 @@
+//! Integer grid of a footprint (bodies follow).
