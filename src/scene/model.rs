@@ -28,6 +28,31 @@ pub enum SceneClass {
     Water = 7,
 }
 
+impl SceneClass {
+    pub const ALL: [SceneClass; 7] = [
+        SceneClass::Terrain,
+        SceneClass::Building,
+        SceneClass::Highway,
+        SceneClass::Landuse,
+        SceneClass::Natural,
+        SceneClass::Leisure,
+        SceneClass::Water,
+    ];
+
+    /// The name in manifests and glTF extras.
+    pub fn name(self) -> &'static str {
+        match self {
+            SceneClass::Terrain => "terrain",
+            SceneClass::Building => "building",
+            SceneClass::Highway => "highway",
+            SceneClass::Landuse => "landuse",
+            SceneClass::Natural => "natural",
+            SceneClass::Leisure => "leisure",
+            SceneClass::Water => "water",
+        }
+    }
+}
+
 /// Triangles `first..first + count` of a mesh share one material of the scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Group {

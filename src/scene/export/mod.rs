@@ -1,0 +1,5 @@
+//! Scenes as files of other people's formats.
+
+pub mod glb;
+
+pub use glb::{ExportError, to_glb};
