@@ -1,0 +1,3 @@
+//! Integration tests, one binary. In: the built program and the repository. Out: what a user would see, held.
+
+mod tidy;
