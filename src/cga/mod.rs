@@ -1,1 +1,4 @@
 //! Rules: `SourceFile → Ast → Program`.
+
+pub mod builtins;
+pub mod program;

@@ -1,0 +1,49 @@
+//! In: forms of a construct that the tables of names cannot tell apart. Out: their status.
+//!
+//! To support a form in the interpreter, change its row's `NotYet` to `Evaluated`.
+
+use super::Status;
+use super::Status::{Evaluated, NotYet};
+
+macro_rules! forms {
+    ($($variant:ident $text:literal $status:ident)*) => {
+        /// A form of a construct with a status of its own.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum Form { $($variant),* }
+
+        impl Form {
+            pub const ALL: &'static [Form] = &[$(Form::$variant),*];
+
+            /// As messages name it.
+            pub fn text(self) -> &'static str {
+                match self { $(Form::$variant => $text),* }
+            }
+
+            pub fn status(self) -> Status {
+                match self { $(Form::$variant => $status),* }
+            }
+        }
+    };
+}
+
+forms! {
+    CompFaces "comp(f)" Evaluated
+    CompEdges "comp(e)" Evaluated
+    CompFaceEdges "comp(fe)" Evaluated
+    CompVertices "comp(v)" Evaluated
+    CompFaceVertices "comp(fv)" NotYet
+    CompGroups "comp(g)" NotYet
+    CompMaterials "comp(m)" NotYet
+    CompHoles "comp(h)" NotYet
+    CompConnected "the selector operator `=:`" NotYet
+    CompKeepAxes "comp(..., noAlign)" NotYet
+    CompFunction "the comp function" Evaluated
+    SplitUv "split(u | v, ...)" NotYet
+    StreetSelector "street selectors" NotYet
+    UvSelector "uv selectors" NotYet
+    RoofEdgeSelector "the selectors eave, hip, valley and ridge" NotYet
+    VertexNormalExtrusion "extrude(vertex.normal, ...)" NotYet
+    DynamicImport "a dynamic import call" NotYet
+    StreetWidth "the map attribute streetWidth" NotYet
+    ComputedSet "set(sel(...), ...)" NotYet
+}
