@@ -1,4 +1,10 @@
 //! Map and elevation: files → [`site::Site`] (local frame, features, terrain).
 
 pub mod feature;
+pub mod features;
+mod geojson;
 pub mod ledger;
+pub mod map;
+pub mod osm;
+pub mod projection;
+pub mod tags;
