@@ -7,7 +7,7 @@ use glam::DVec2;
 
 use crate::geometry::Polygon;
 
-/// The OSM object a feature came from; GeoJSON features count as ways with their running number.
+/// The OSM object a feature came from, or the GeoJSON feature with its running number over all inputs, from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct FeatureId {
     pub kind: ObjectKind,
@@ -21,6 +21,8 @@ pub enum ObjectKind {
     Node,
     Way,
     Relation,
+    /// A GeoJSON feature: numbers of its own, so that they never meet OSM ids.
+    Feature,
 }
 
 impl std::fmt::Display for FeatureId {
@@ -29,6 +31,7 @@ impl std::fmt::Display for FeatureId {
             ObjectKind::Node => "node",
             ObjectKind::Way => "way",
             ObjectKind::Relation => "relation",
+            ObjectKind::Feature => "feature",
         };
         write!(f, "{kind}/{}", self.id)?;
         if self.part > 0 { write!(f, "#{}", self.part) } else { Ok(()) }

@@ -1,0 +1,49 @@
+//! Map files → [`OsmData`]. In: OSM XML, PBF, Overpass JSON, GeoJSON, plain or packed. Out: nodes, ways, relations, shapes.
+//!
+//! The format is found by content, never by name. A damaged file is an error with its place; nothing of it is used.
+
+mod container;
+mod data;
+mod error;
+mod json;
+mod pbf;
+mod xml;
+
+#[cfg(test)]
+mod tests;
+
+use std::path::PathBuf;
+
+pub use container::Format;
+pub use data::{LonLatBox, Member, OsmBuilder, OsmData, Position, Relation, Shape, ShapeGeometry, TagsView, Way};
+pub use error::{MapError, MapPlace};
+
+use container::Opened;
+use error::Fault;
+
+/// Reads all files into one map; of objects with the same id the one read first stays.
+pub fn read_files(paths: &[PathBuf]) -> Result<OsmData, MapError> {
+    let mut builder = OsmBuilder::default();
+    for path in paths {
+        let name = path.display().to_string();
+        let file = std::fs::File::open(path).map_err(|source| MapError::Io { file: name.clone(), source })?;
+        read_stream(file, &name, &mut builder)?;
+    }
+    Ok(builder.finish())
+}
+
+/// Reads one file from any byte stream; `name` is for errors. Gives the format that was found.
+pub fn read_stream(
+    input: impl std::io::Read + Send,
+    name: &str,
+    builder: &mut OsmBuilder,
+) -> Result<Format, MapError> {
+    let Opened { format, reader } = container::open(input, name)?;
+    let read: fn(_, _) -> Result<(), Fault> = match format {
+        Format::Xml => xml::read,
+        Format::Pbf => pbf::read,
+        Format::Json => json::read,
+    };
+    read(reader, builder).map_err(|fault| fault.in_file(name))?;
+    Ok(format)
+}
