@@ -1,0 +1,159 @@
+//! The command line, as a type. In: words. Out: [`Args`], or clap's own usage error (exit code 2).
+
+use std::path::PathBuf;
+
+use clap::{Parser, Subcommand, ValueEnum};
+
+/// A compiler for declarative city scenes: rules and maps in, change-detection datasets with exact masks out.
+///
+/// Exit codes: 0 done, 1 the input is wrong, 2 the command line is wrong or the machine cannot do it.
+#[derive(Debug, Parser)]
+#[command(name = "mansard", version, max_term_width = 100)]
+pub struct Args {
+    #[command(subcommand)]
+    pub command: Command,
+    /// Print errors only
+    #[arg(long, short, global = true)]
+    pub quiet: bool,
+}
+
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Check rule files (.cga) and recipes (.render)
+    Check {
+        #[arg(required = true, value_name = "FILE")]
+        files: Vec<PathBuf>,
+        /// `json` prints one object per line
+        #[arg(long, value_enum, default_value_t = Format::Text)]
+        format: Format,
+        #[command(flatten)]
+        recipe: RecipeOptions,
+    },
+    /// Run a rule file on one footprint
+    Derive(DeriveArgs),
+    /// Build the meshes of a recipe's scene as binary glTF
+    Build {
+        recipe: PathBuf,
+        /// The .glb file; recipes of several scenes get one file each, `NAME-SCENE.glb`
+        #[arg(short, long, value_name = "FILE")]
+        output: PathBuf,
+        #[command(flatten)]
+        options: RecipeOptions,
+        #[command(flatten)]
+        work: WorkOptions,
+    },
+    /// Make the dataset of a recipe
+    Render {
+        recipe: PathBuf,
+        /// Folder of the dataset, made if it is missing
+        #[arg(short, long, value_name = "DIR")]
+        output: PathBuf,
+        /// Only these views, by name, `*` stands for anything; several with commas
+        #[arg(long, value_delimiter = ',', value_name = "VIEWS")]
+        views: Vec<String>,
+        #[command(flatten)]
+        options: RecipeOptions,
+        #[command(flatten)]
+        work: WorkOptions,
+    },
+    /// Show what a recipe will derive and draw, what not, and why; needs no GPU
+    Plan {
+        recipe: PathBuf,
+        #[arg(long, value_enum, default_value_t = PlanFormat::Text)]
+        format: PlanFormat,
+        #[command(flatten)]
+        options: RecipeOptions,
+        #[command(flatten)]
+        work: WorkOptions,
+    },
+    /// Look into a phase
+    Dump {
+        #[arg(value_enum)]
+        phase: Phase,
+        /// A .cga or .render file (`tree` wants a .cga file and derives it on a 10 m x 8 m footprint)
+        file: PathBuf,
+    },
+    /// Make a fictional town: DIR/NAME.osm and DIR/NAME.tif
+    Town {
+        #[arg(long, default_value_t = 0)]
+        seed: u64,
+        /// 1 to 1,000,000
+        #[arg(long, default_value_t = 400)]
+        buildings: u32,
+        /// Folder, made if it is missing
+        #[arg(short, long, value_name = "DIR")]
+        output: PathBuf,
+        #[arg(long, default_value = "town")]
+        name: String,
+    },
+}
+
+/// Options of commands that read a recipe.
+#[derive(Clone, Debug, Default, clap::Args)]
+pub struct RecipeOptions {
+    /// Value of an argument that the recipe declares; paths are relative to the working folder
+    #[arg(long = "set", value_name = "NAME=VALUE")]
+    pub set: Vec<String>,
+    /// One more folder tree that the recipe may read from
+    #[arg(long, value_name = "DIR")]
+    pub allow: Vec<PathBuf>,
+}
+
+#[derive(Clone, Debug, Default, clap::Args)]
+pub struct WorkOptions {
+    /// Threads; results do not depend on it
+    #[arg(long, value_name = "N")]
+    pub jobs: Option<usize>,
+}
+
+#[derive(Clone, Debug, clap::Args)]
+pub struct DeriveArgs {
+    /// The .cga file
+    pub rules: PathBuf,
+    /// Corners "x,z x,z ..." in metres, y up; holes after `;`, in the order given
+    #[arg(long, value_name = "RINGS", allow_hyphen_values = true)]
+    pub footprint: String,
+    /// Start rule; the file's own @StartRule otherwise
+    #[arg(long, value_name = "RULE")]
+    pub start: Option<String>,
+    #[arg(long = "attr", value_name = "NAME=VALUE")]
+    pub attributes: Vec<String>,
+    #[arg(long, default_value_t = 0)]
+    pub seed: u64,
+    #[arg(long, value_enum, default_value_t = DeriveFormat::Tree)]
+    pub format: DeriveFormat,
+    /// Standard output otherwise
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// One more folder tree that rules may read from
+    #[arg(long, value_name = "DIR")]
+    pub allow: Vec<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Format {
+    Text,
+    Json,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum PlanFormat {
+    Text,
+    Json,
+    Dot,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum DeriveFormat {
+    Tree,
+    Json,
+    Glb,
+    Obj,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Phase {
+    Ast,
+    Program,
+    Tree,
+}
