@@ -1,0 +1,196 @@
+//! From a polygon to the initial wavefront.
+//!
+//! In: rings in metres and weights per edge. Out: integer lines, the circular lists of wavefront vertices, and which
+//! edges lie on one line with their neighbour (`../shared/numerics.md` §5.4; collinear vertices of §4 step 6).
+
+use glam::DVec2;
+
+use super::SkeletonError;
+use super::faces::Union;
+use super::line::Line;
+use super::wavefront::Wavefront;
+use crate::geometry::grid::Grid;
+use crate::geometry::polygon::{Polygon, signed_area};
+
+/// Choices of those who run the wavefront for something else than the plain skeleton.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Options {
+    /// At a reflex corner between an edge that moves and one that stands still, end the strip square to the moving edge.
+    pub square_ends: bool,
+    /// Cut off reflex corners that would reach farther than this many distances.
+    pub mitre_limit: Option<f64>,
+}
+
+/// One edge of the input that has a length on the grid.
+#[derive(Clone, Copy)]
+struct Side {
+    edge: u32,
+    start: u32,
+    point: [i64; 2],
+    direction: [i64; 2],
+    weight: f64,
+}
+
+/// What [`Wavefront`] starts from, besides the vertices.
+pub(super) struct Setup {
+    pub grid: Grid,
+    /// Real time of a unit of τ, metres.
+    pub metres_per_tau: f64,
+    pub wavefront: Wavefront,
+}
+
+/// Build the initial wavefront.
+pub(super) fn set_up(polygon: &Polygon, weights: Option<&[f64]>, options: &Options) -> Result<Setup, SkeletonError> {
+    let count = polygon.rings().map(Vec::len).sum();
+    let fastest = check_weights(weights, count)?;
+    if polygon.rings().flatten().any(|p| !p.is_finite()) {
+        return Err(SkeletonError::NotFinite);
+    }
+    if polygon.outer.len() < 3 {
+        return Err(SkeletonError::TooFewPoints);
+    }
+    let (min, max) = polygon.bounds().ok_or(SkeletonError::TooFewPoints)?;
+    if min == max {
+        return Err(SkeletonError::TooFewPoints);
+    }
+    let grid = Grid::over(min, max).ok_or(SkeletonError::NotFinite)?;
+    let mut wavefront = Wavefront::with_capacity(count);
+    // With all weights 0 nothing moves; any unit of time will do.
+    let unit = if fastest > 0.0 { fastest } else { 1.0 };
+    let mut first = 0;
+    for (number, ring) in polygon.rings().enumerate() {
+        check_direction(ring, number == 0)?;
+        let weight = |edge: usize| weights.map_or(1.0, |w| w[edge] / unit);
+        let sides = sides_of(&mut wavefront, &grid, ring, first, weight)?;
+        add_ring(&mut wavefront, &sides, options)?;
+        first += ring.len();
+    }
+    Ok(Setup { grid, metres_per_tau: 4_294_967_296.0 * grid.step / unit, wavefront })
+}
+
+/// The greatest weight.
+fn check_weights(weights: Option<&[f64]>, edges: usize) -> Result<f64, SkeletonError> {
+    let Some(weights) = weights else { return Ok(1.0) };
+    if weights.len() != edges {
+        return Err(SkeletonError::WeightCount { given: weights.len(), edges });
+    }
+    match weights.iter().position(|w| !(w.is_finite() && *w >= 0.0)) {
+        Some(edge) => Err(SkeletonError::Weight { edge, weight: weights[edge] }),
+        None => Ok(weights.iter().fold(0.0, |m, &w| f64::max(m, w))),
+    }
+}
+
+fn check_direction(ring: &[DVec2], outer: bool) -> Result<(), SkeletonError> {
+    let area = signed_area(ring);
+    if area != 0.0 && (area > 0.0) != outer {
+        return Err(SkeletonError::NotSimple);
+    }
+    Ok(())
+}
+
+/// Enter the ring's vertices as nodes and its lines; return the edges that have a length.
+fn sides_of(
+    wavefront: &mut Wavefront,
+    grid: &Grid,
+    ring: &[DVec2],
+    first: usize,
+    weight: impl Fn(usize) -> f64,
+) -> Result<Vec<Side>, SkeletonError> {
+    let points: Vec<[i64; 2]> = ring.iter().map(|&p| grid.snap(p)).collect();
+    let mut sides: Vec<Side> = Vec::with_capacity(ring.len());
+    for (i, &point) in points.iter().enumerate() {
+        let end = points[(i + 1) % points.len()];
+        let edge = first + i;
+        wavefront.add_input_node(point);
+        let direction = [end[0] - point[0], end[1] - point[1]];
+        let weight = weight(edge);
+        if direction == [0, 0] {
+            // A face of its own for an edge without length: its line is never used.
+            wavefront.add_line(Line::new(point, 1, 0, weight));
+            continue;
+        }
+        wavefront.add_line(Line::new(point, direction[0], direction[1], weight));
+        sides.push(Side { edge: edge as u32, start: edge as u32, point, direction, weight });
+    }
+    if sides.len() < 3 {
+        return Err(SkeletonError::TooFewPoints);
+    }
+    Ok(sides)
+}
+
+/// Enter one loop of wavefront vertices and the eaves of its faces.
+fn add_ring(wavefront: &mut Wavefront, sides: &[Side], options: &Options) -> Result<(), SkeletonError> {
+    let begin = wavefront.vertices.len();
+    for k in 0..sides.len() {
+        let (before, here) = (&sides[(k + sides.len() - 1) % sides.len()], &sides[k]);
+        wavefront.eaves.push((before.edge, before.start, here.start));
+        add_corner(wavefront, before, here, options)?;
+    }
+    let end = wavefront.vertices.len();
+    if end - begin < 3 {
+        return Err(SkeletonError::NotSimple);
+    }
+    for v in begin..end {
+        let next = if v + 1 == end { begin } else { v + 1 };
+        wavefront.vertices[v].next = next as u32;
+        wavefront.vertices[next].prev = v as u32;
+    }
+    Ok(())
+}
+
+/// Enter the wavefront vertices between two edges: one as a rule, none on one line, two where an auxiliary line is needed.
+fn add_corner(wf: &mut Wavefront, before: &Side, here: &Side, options: &Options) -> Result<(), SkeletonError> {
+    let (l, r) = (wf.lines[before.edge as usize], wf.lines[here.edge as usize]);
+    let cross = l.cross(&r);
+    if cross == 0 && !l.same_direction(&r) {
+        return Err(SkeletonError::NotSimple);
+    }
+    if l == r {
+        wf.faces.unite(Union { left: before.edge, right: here.edge, node: here.start });
+        return Ok(());
+    }
+    match auxiliary_line(before, here, cross, options) {
+        Some(line) => {
+            let between = wf.add_line(line);
+            wf.add_vertex(before.edge, between, here.start);
+            wf.add_vertex(between, here.edge, here.start);
+        }
+        None => {
+            wf.add_vertex(before.edge, here.edge, here.start);
+        }
+    }
+    Ok(())
+}
+
+/// The line to put between two edges, if they need one.
+fn auxiliary_line(before: &Side, here: &Side, cross: i64, options: &Options) -> Option<Line> {
+    let (p, [bx, by], [hx, hy]) = (here.point, before.direction, here.direction);
+    // Collinear edges of different speed part along a step square to them.
+    if cross == 0 {
+        let inwards = if here.weight > before.weight { 1 } else { -1 };
+        return Some(Line::new(p, -hy * inwards, hx * inwards, 0.0));
+    }
+    if cross > 0 {
+        return None;
+    }
+    if options.square_ends && (before.weight == 0.0) != (here.weight == 0.0) {
+        // Square to the edge that moves: from it back to the outline, or from the outline in to it.
+        let direction = if here.weight == 0.0 { [by, -bx] } else { [-hy, hx] };
+        return Some(Line::new(p, direction[0], direction[1], 0.0));
+    }
+    let limit = options.mitre_limit?;
+    let (u, v) = (unit(before.direction), unit(here.direction));
+    let bisector = u + v;
+    // 1 / cos(half the turn) is how much farther than its edges the corner moves.
+    let half = bisector.length() / 2.0;
+    if half * limit >= 1.0 {
+        return None;
+    }
+    let tangent = if half > 1e-9 { bisector.normalize() } else { DVec2::new(u.y, -u.x) };
+    let [dx, dy] = (tangent * f64::from(1 << 28)).to_array().map(|c| c.round() as i64);
+    Some(Line::new(p, dx, dy, (limit * before.weight.max(here.weight)).min(1.0)))
+}
+
+fn unit(direction: [i64; 2]) -> DVec2 {
+    DVec2::new(direction[0] as f64, direction[1] as f64).normalize()
+}
