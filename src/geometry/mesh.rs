@@ -2,6 +2,8 @@
 
 use glam::{DVec2, DVec3};
 
+use super::plane::unit;
+
 /// One planar face. Loops index [`Mesh::positions`]; the outer loop is counter-clockwise seen from outside,
 /// hole loops run the other way. The first edge runs from corner 0 to corner 1.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -68,7 +70,7 @@ impl Mesh {
 
     /// The unit normal, zero for a face without area (cga-reference C.4).
     pub fn normal(&self, face: &Face) -> DVec3 {
-        self.newell(face).normalize_or_zero()
+        unit(self.newell(face)).unwrap_or(DVec3::ZERO)
     }
 
     /// Area less holes, square metres.

@@ -28,7 +28,8 @@ pub fn flip_face(face: &mut Face) {
     for (_, uv) in &mut face.uvs {
         let mut rest = uv.as_mut_slice();
         for &n in &lengths {
-            let (ring, tail) = std::mem::take(&mut rest).split_at_mut(n.min(rest.len()));
+            let n = n.min(rest.len());
+            let (ring, tail) = std::mem::take(&mut rest).split_at_mut(n);
             flip_loop(ring);
             rest = tail;
         }

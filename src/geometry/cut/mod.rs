@@ -1,13 +1,19 @@
 //! Cutting meshes by planes. In: a mesh and one or many parallel planes. Out: the pieces, closed again by caps.
 //!
-//! Closed meshes give closed pieces, a cap face per separate outline of the cut, with its holes. Open meshes are just
+//! Closed components give closed pieces, a cap face per separate outline of the cut, with its holes. Open ones are just
 //! cut. Concave faces may fall into several. A face in the plane goes to the side it bounds. A face keeps its first
 //! edge if that survives, otherwise it starts with the first surviving one (cga-reference C.3). Cut points are computed
 //! once per edge, so the pieces meet bitwise. Texture coordinates are interpolated; caps have none.
 
+mod cap;
+mod face;
+
+use std::collections::BTreeMap;
+
 use glam::DVec3;
 
-use super::{Mesh, Plane};
+use super::{Face, Mesh, Plane};
+use face::{CutFace, Side};
 
 /// Where a face of a piece comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,6 +32,12 @@ pub struct Piece {
     pub origins: Vec<Origin>,
 }
 
+impl Piece {
+    pub fn is_empty(&self) -> bool {
+        self.mesh.faces.is_empty()
+    }
+}
+
 /// The two sides of a cut.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Cut {
@@ -33,13 +45,150 @@ pub struct Cut {
     pub front: Piece,
 }
 
-/// Cuts a mesh by a plane.
+/// Cuts a mesh by a plane. Vertices within the grid step of the mesh's extent lie on the plane.
 pub fn cut(mesh: &Mesh, plane: &Plane) -> Cut {
-    todo!()
+    let origins = (0..mesh.faces.len() as u32).map(Origin::Face).collect();
+    cut_piece(Piece { mesh: mesh.clone(), origins }, plane, thickness(mesh))
 }
 
 /// Cuts a mesh by the parallel planes `normal . p = boundary` (`normal` of length 1, `boundaries` rising) into
 /// `boundaries.len() + 1` pieces: before the first, between each pair, after the last. Pieces may be empty.
 pub fn slice(mesh: &Mesh, normal: DVec3, boundaries: &[f64]) -> Vec<Piece> {
-    todo!()
+    let thickness = thickness(mesh);
+    let origins = (0..mesh.faces.len() as u32).map(Origin::Face).collect();
+    let mut rest = Piece { mesh: mesh.clone(), origins };
+    let mut pieces = Vec::with_capacity(boundaries.len() + 1);
+    for &offset in boundaries {
+        let Cut { behind, front } = cut_piece(rest, &Plane { normal, offset }, thickness);
+        pieces.push(behind);
+        rest = front;
+    }
+    pieces.push(rest);
+    pieces
 }
+
+/// Half the thickness of a plane: the kernel's grid step for this extent (numerics section 3), and never below what
+/// f64 resolves at this distance from the origin.
+fn thickness(mesh: &Mesh) -> f64 {
+    let Some((lo, hi)) = mesh.bounds() else { return 0.0 };
+    let extent = (hi - lo).max_element();
+    let reach = lo.abs().max(hi.abs()).max_element();
+    let step = 2f64.powi(-30);
+    (extent * step).max(reach * step * step.sqrt())
+}
+
+fn cut_piece(piece: Piece, plane: &Plane, thickness: f64) -> Cut {
+    let distances: Vec<f64> = piece.mesh.positions.iter().map(|&p| plane.signed_distance(p)).collect();
+    let sides: Vec<Side> = distances.iter().map(|&d| Side::of(d, thickness)).collect();
+    let mut cutter = Cutter::new(&piece.mesh, plane, distances, sides);
+    let homes: Vec<(bool, bool)> = piece.mesh.faces.iter().map(|f| cutter.homes(f)).collect();
+    match (homes.iter().any(|h| h.0), homes.iter().any(|h| h.1)) {
+        (_, false) => return Cut { behind: piece, front: Piece::default() },
+        (false, true) => return Cut { behind: Piece::default(), front: piece },
+        (true, true) => (),
+    }
+    let (mut behind, mut front) = (Vec::new(), Vec::new());
+    for (index, source) in piece.mesh.faces.iter().enumerate() {
+        match homes[index] {
+            (true, false) => behind.push((index, source.clone())),
+            (false, _) => front.push((index, source.clone())),
+            (true, true) => {
+                let cut = CutFace::new(&piece.mesh, source, plane, |a, b| cutter.crossing(a, b));
+                let parts =
+                    |side| cut.parts(side, &cutter.positions, &cutter.sides).into_iter().map(move |f| (index, f));
+                behind.extend(parts(Side::Behind));
+                front.extend(parts(Side::Front));
+            }
+        }
+    }
+    let closed = cap::faces_of_closed_components(&piece.mesh);
+    let finish = |faces: Vec<(usize, Face)>, side: Side| {
+        let caps = cap::caps(&cutter.positions, &faces, &closed, plane, side, |v| cutter.sides[v as usize] == Side::On);
+        assemble(&cutter.positions, &piece.origins, faces, caps)
+    };
+    Cut { behind: finish(behind, Side::Behind), front: finish(front, Side::Front) }
+}
+
+/// The vertices of one cut: those of the mesh, then the cut points.
+struct Cutter<'a> {
+    mesh: &'a Mesh,
+    plane: &'a Plane,
+    distances: Vec<f64>,
+    positions: Vec<DVec3>,
+    sides: Vec<Side>,
+    /// Cut point of an edge, lesser vertex first.
+    cut_points: BTreeMap<(u32, u32), u32>,
+}
+
+impl<'a> Cutter<'a> {
+    fn new(mesh: &'a Mesh, plane: &'a Plane, distances: Vec<f64>, sides: Vec<Side>) -> Self {
+        Cutter { mesh, plane, distances, positions: mesh.positions.clone(), sides, cut_points: BTreeMap::new() }
+    }
+
+    /// Whether a face has a part behind the plane, and one in front. A face in the plane goes to the side it bounds.
+    fn homes(&self, face: &Face) -> (bool, bool) {
+        let has = |s: Side| face.corners().any(|c| self.sides[c as usize] == s);
+        match (has(Side::Behind), has(Side::Front)) {
+            (false, false) => {
+                let behind = self.mesh.newell(face).dot(self.plane.normal) > 0.0;
+                (behind, !behind)
+            }
+            homes => homes,
+        }
+    }
+
+    /// The cut point of edge a-b and its place from a (0) to b (1), if a and b are on different sides. The point is
+    /// the same bits whichever way the edge is run, and lies in the plane exactly if that is a coordinate plane.
+    fn crossing(&mut self, a: u32, b: u32) -> Option<(u32, f64)> {
+        if self.sides[a as usize] != self.sides[b as usize].opposite()? {
+            return None;
+        }
+        let share =
+            |i: u32, j: u32| self.distances[i as usize] / (self.distances[i as usize] - self.distances[j as usize]);
+        let positions = &mut self.positions;
+        let vertex = *self.cut_points.entry((a.min(b), a.max(b))).or_insert_with(|| {
+            let (p, q) = (positions[a as usize], positions[b as usize]);
+            let (i, j) = if (p.x, p.y, p.z) <= (q.x, q.y, q.z) { (a, b) } else { (b, a) };
+            let (p, q) = (positions[i as usize], positions[j as usize]);
+            positions.push(on_coordinate_plane(p + (q - p) * share(i, j), self.plane));
+            self.sides.push(Side::On);
+            positions.len() as u32 - 1
+        });
+        Some((vertex, share(a, b)))
+    }
+}
+
+fn on_coordinate_plane(mut p: DVec3, plane: &Plane) -> DVec3 {
+    for axis in 0..3 {
+        if plane.normal[axis].abs() == 1.0 {
+            p[axis] = plane.offset * plane.normal[axis];
+        }
+    }
+    p
+}
+
+/// Puts faces and caps in order and keeps only the vertices they use, in their old order.
+fn assemble(positions: &[DVec3], origins: &[Origin], faces: Vec<(usize, Face)>, caps: Vec<Face>) -> Piece {
+    let caps_first = faces.first().is_some_and(|&(index, _)| index != 0);
+    let capped = caps.into_iter().map(|f| (Origin::Cap, f));
+    let own = faces.into_iter().map(|(index, f)| (origins[index], f));
+    let ordered: Vec<(Origin, Face)> =
+        if caps_first { capped.chain(own).collect() } else { own.chain(capped).collect() };
+    let mut place = vec![u32::MAX; positions.len()];
+    ordered.iter().flat_map(|(_, f)| f.corners()).for_each(|c| place[c as usize] = 0);
+    let mut piece = Piece::default();
+    for (slot, &position) in place.iter_mut().zip(positions).filter(|(slot, _)| **slot == 0) {
+        *slot = piece.mesh.positions.len() as u32;
+        piece.mesh.positions.push(position);
+    }
+    for (origin, mut face) in ordered {
+        let loops = std::iter::once(&mut face.outer).chain(&mut face.holes);
+        loops.flatten().for_each(|c| *c = place[*c as usize]);
+        piece.origins.push(origin);
+        piece.mesh.faces.push(face);
+    }
+    piece
+}
+
+#[cfg(test)]
+mod tests;

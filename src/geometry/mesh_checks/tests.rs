@@ -1,0 +1,106 @@
+//! Pairs: a cube passes every check; break one thing, and exactly that defect is found.
+
+use super::*;
+use crate::geometry::Face;
+use crate::geometry::extrude::{Direction, extrude};
+use crate::geometry::transform::flip_face;
+
+fn cube() -> Mesh {
+    let positions = vec![DVec3::ZERO, DVec3::X, DVec3::new(1.0, 0.0, -1.0), DVec3::NEG_Z];
+    let square = Mesh { positions, faces: vec![Face::new(vec![0, 1, 2, 3])] };
+    extrude(&square, Direction::FaceNormal, 1.0).expect("a square has area").mesh
+}
+
+/// Number of findings of every check, in order.
+fn findings(mesh: &Mesh) -> [usize; 9] {
+    [
+        open_edges(mesh).len(),
+        edges_used_more_than_twice(mesh).len(),
+        edges_run_twice_the_same_way(mesh).len(),
+        faces_without_area(mesh).len(),
+        doubled_corners(mesh).len(),
+        non_planar_faces(mesh, 1e-9).len(),
+        non_finite_vertices(mesh).len(),
+        degenerate_triangles(mesh).len(),
+        faces_not_triangulated(mesh).len(),
+    ]
+}
+
+#[test]
+fn a_cube_has_no_defect() {
+    assert_eq!(missing_vertices(&cube()), []);
+    assert_eq!(findings(&cube()), [0; 9]);
+    assert!(is_closed(&cube()));
+    assert_eq!((volume(&cube()), surface_area(&cube())), (1.0, 6.0));
+}
+
+#[test]
+fn a_missing_face_leaves_open_edges() {
+    let mut mesh = cube();
+    mesh.faces.remove(1);
+    assert_eq!(open_edges(&mesh), [(5, 4), (4, 7), (6, 5), (7, 6)]);
+    assert_eq!(findings(&mesh), [4, 0, 0, 0, 0, 0, 0, 0, 0]);
+    assert!(!is_closed(&mesh));
+}
+
+#[test]
+fn a_repeated_face_uses_its_edges_three_times() {
+    let mut mesh = cube();
+    mesh.faces.push(mesh.faces[0].clone());
+    assert_eq!(edges_used_more_than_twice(&mesh)[0], ((0, 1), 3));
+    assert_eq!(findings(&mesh), [0, 4, 0, 0, 0, 0, 0, 0, 0]);
+}
+
+#[test]
+fn a_flipped_face_runs_its_edges_the_same_way_as_its_neighbours() {
+    let mut mesh = cube();
+    flip_face(&mut mesh.faces[1]);
+    assert_eq!(edges_run_twice_the_same_way(&mesh), [(4, 5), (4, 7), (5, 6), (6, 7)]);
+    assert_eq!(findings(&mesh), [0, 0, 4, 0, 0, 0, 0, 0, 0]);
+}
+
+#[test]
+fn a_face_between_two_vertices_has_no_area() {
+    let mut mesh = cube();
+    mesh.faces = vec![Face::new(vec![0, 1])];
+    assert_eq!(faces_without_area(&mesh), [0]);
+}
+
+#[test]
+fn a_doubled_corner_is_named() {
+    let mut mesh = cube();
+    mesh.positions.push(mesh.positions[2]);
+    mesh.faces = vec![Face::new(vec![0, 1, 2, 8, 3])];
+    assert_eq!(doubled_corners(&mesh), [(0, 3)]);
+}
+
+#[test]
+fn a_lifted_corner_bends_its_three_faces() {
+    let mut mesh = cube();
+    mesh.positions[6] += DVec3::splat(0.25);
+    assert_eq!(non_planar_faces(&mesh, 1e-9).len(), 3);
+    assert_eq!(findings(&mesh), [0, 0, 0, 0, 0, 3, 0, 0, 0]);
+}
+
+#[test]
+fn a_crossing_loop_is_not_triangulated_in_full() {
+    let mut mesh = cube();
+    mesh.faces = vec![Face::new(vec![0, 2, 1, 3])];
+    assert_eq!(faces_not_triangulated(&mesh), [0]);
+}
+
+#[test]
+fn a_vertex_at_infinity_and_a_missing_one_are_named() {
+    let mut mesh = cube();
+    mesh.positions[3].y = f64::INFINITY;
+    assert_eq!(non_finite_vertices(&mesh), [3]);
+    mesh.faces[2].outer[1] = 99;
+    assert_eq!(missing_vertices(&mesh), [(2, 1)]);
+}
+
+#[test]
+fn a_cube_far_from_the_origin_keeps_its_volume() {
+    let mut mesh = cube();
+    mesh.positions.iter_mut().for_each(|p| *p += DVec3::new(1048576.0, 0.0, -2097152.0));
+    assert_eq!(volume(&mesh), 1.0);
+}
