@@ -1,3 +1,13 @@
 //! Plan: what the recipe demands → which passes run, in which order, over which resources. No GPU here.
 
 pub mod demand;
+pub mod dump;
+pub mod light;
+pub mod pass;
+pub mod resource;
+pub mod schedule;
+pub mod summary;
+
+pub use pass::{Counts, RenderPlan, ViewPlan};
+pub use schedule::schedule;
+pub use summary::{ObjectSummary, summarize};

@@ -1,0 +1,178 @@
+//! Passes: what is drawn, with which light, into what; and the plan that orders them. Data only.
+//!
+//! A *stage* is a run of passes that is repeated for every tile of the image before the next stage begins, so that
+//! only its own textures are alive together.
+
+use std::sync::Arc;
+
+use super::demand::{Ambient, Camera, Output, State, Sun};
+use super::light::LightFrame;
+use super::resource::{Resource, ResourceId};
+
+/// How a surface must be drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Surface {
+    /// One colour.
+    Plain,
+    /// Opaque texture.
+    Textured,
+    /// Texture with holes: texels of alpha under one half are not there.
+    Cutout,
+}
+
+/// How shadows are looked up.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum ShadowFilter {
+    Unshadowed,
+    /// Box filter of `2 × gathers - 1` texels per side, bilinear at its border; 1 is a hard shadow.
+    Box {
+        gathers: u32,
+    },
+}
+
+/// One pipeline to compile.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum PipelineKey {
+    ShadowMap { cutout: bool },
+    Shade { surface: Surface, shadow: ShadowFilter },
+    Resolve { supersample: u32 },
+    Ids { cutout: bool },
+    Depth { cutout: bool },
+}
+
+/// Objects that a pass draws: one flag per object, already restricted to those present in `state`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DrawSet {
+    pub state: State,
+    pub objects: Arc<[bool]>,
+    pub triangles: u64,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub enum PassKind {
+    /// Depth from the sun.
+    ShadowMap { draw: DrawSet, light: LightFrame },
+    /// Linear radiance; `light` is that of the shadow map it reads.
+    Shade { draw: DrawSet, sun: Option<Sun>, ambient: Ambient, light: Option<LightFrame> },
+    /// Mean of the samples of a pixel in linear light, then sRGB.
+    Resolve { supersample: u32 },
+    /// Object numbers at pixel centres, one sample, never blended.
+    Ids { draw: DrawSet },
+    /// Depth at pixel centres alone.
+    Depth { draw: DrawSet },
+}
+
+impl PassKind {
+    /// The word that the pass, its shader, its labels and its resources share.
+    pub fn stem(&self) -> &'static str {
+        match self {
+            PassKind::ShadowMap { .. } => "shadow_map",
+            PassKind::Shade { .. } => "shade",
+            PassKind::Resolve { .. } => "resolve",
+            PassKind::Ids { .. } => "ids",
+            PassKind::Depth { .. } => "depth",
+        }
+    }
+
+    pub fn draw(&self) -> Option<&DrawSet> {
+        match self {
+            PassKind::ShadowMap { draw, .. }
+            | PassKind::Shade { draw, .. }
+            | PassKind::Ids { draw }
+            | PassKind::Depth { draw } => Some(draw),
+            PassKind::Resolve { .. } => None,
+        }
+    }
+}
+
+/// One pass with all it may touch: the renderer opens no other resource and compiles no other pipeline.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pass {
+    pub kind: PassKind,
+    pub reads: Vec<ResourceId>,
+    pub writes: Vec<ResourceId>,
+    pub pipelines: Vec<PipelineKey>,
+}
+
+/// How texels become the pixels of an image file. Tables are indexed by what [`PassKind::Ids`] writes.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Encoding {
+    /// RGB bytes as they are.
+    Color,
+    /// 8-bit label of each object.
+    Label(Arc<[u8]>),
+    /// 32-bit label of each object.
+    Number(Arc<[u32]>),
+    /// Metres along the viewing direction from reverse depth; infinite at 0.
+    Distance,
+}
+
+/// An image that leaves the renderer.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Product {
+    /// Place among the view's demanded outputs.
+    pub index: usize,
+    /// Name of the recipe's pass.
+    pub pass: String,
+    pub output: Output,
+    pub source: ResourceId,
+    pub encoding: Encoding,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stage {
+    /// Repeated per tile of the image; a shadow map is drawn once.
+    pub tiled: bool,
+    pub passes: Vec<Pass>,
+    pub products: Vec<Product>,
+}
+
+/// Something that is not done, and why.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Skipped {
+    pub what: String,
+    pub reason: String,
+}
+
+/// Everything that is done for one view.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ViewPlan {
+    pub name: String,
+    pub camera: Camera,
+    /// Farthest distance along the viewing direction, metres; orthographic depth runs from it to `camera.near`.
+    pub far: f64,
+    pub resources: Vec<Resource>,
+    pub stages: Vec<Stage>,
+    pub skipped: Vec<Skipped>,
+}
+
+impl ViewPlan {
+    pub fn passes(&self) -> impl Iterator<Item = &Pass> {
+        self.stages.iter().flat_map(|stage| &stage.passes)
+    }
+}
+
+/// Everything that the renderer will do, in order.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RenderPlan {
+    pub views: Vec<ViewPlan>,
+}
+
+/// How much a plan (or a renderer that ran it) makes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counts {
+    pub passes: usize,
+    /// Render targets; the textures of materials are not among them.
+    pub textures: usize,
+    pub pipelines: usize,
+}
+
+impl RenderPlan {
+    pub fn counts(&self) -> Counts {
+        use std::collections::BTreeSet;
+        let passes = || self.views.iter().flat_map(ViewPlan::passes);
+        let textures: BTreeSet<_> = self.views.iter().flat_map(|v| &v.resources).map(|r| r.texture).collect();
+        let pipelines: BTreeSet<_> = passes().flat_map(|p| &p.pipelines).collect();
+        Counts { passes: passes().count(), textures: textures.len(), pipelines: pipelines.len() }
+    }
+}

@@ -1,0 +1,83 @@
+//! Object summary: what the planner must know of each object, taken from the scene once.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use super::demand::State;
+use super::pass::Surface;
+use crate::interpreter::material::Material;
+use crate::scene::{Presence, Scene, SceneObject};
+
+/// Opacity (of the material, or material times texel) under which a surface is not there. Half-transparent surfaces
+/// are drawn opaque: labels need a decision, and colour, shadow and label must agree on it.
+pub const OPAQUE_FROM: f64 = 0.5;
+
+/// One object of the scene as the planner sees it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ObjectSummary {
+    /// Least and greatest corner, metres; `None` for an empty mesh.
+    pub bounds: Option<(DVec3, DVec3)>,
+    pub presence: Presence,
+    pub class: u8,
+    pub instance: u32,
+    pub level: u8,
+    pub triangles: u64,
+    /// Kinds of surface it has, sorted, without invisible ones.
+    pub surfaces: Vec<Surface>,
+}
+
+impl ObjectSummary {
+    pub fn is_present(&self, state: State) -> bool {
+        match self.presence {
+            Presence::Both => true,
+            Presence::BeforeOnly => state == State::Before,
+            Presence::AfterOnly => state == State::After,
+        }
+    }
+}
+
+/// One summary per object, in the scene's order.
+pub fn summarize(scene: &Scene) -> Vec<ObjectSummary> {
+    let surfaces = material_surfaces(scene);
+    scene.objects.iter().map(|object| summarize_object(object, &surfaces)).collect()
+}
+
+/// How each material of the scene is drawn; `None` is invisible.
+pub fn material_surfaces(scene: &Scene) -> Vec<Option<Surface>> {
+    let has_holes: Vec<bool> = scene.textures.iter().map(|(_, t)| t.pixels().any(|p| p.0[3] < 128)).collect();
+    scene.materials.iter().map(|m| surface(m, scene.textures.as_slice(), &has_holes)).collect()
+}
+
+fn surface(material: &Material, textures: &[(Arc<str>, Arc<image::RgbaImage>)], has_holes: &[bool]) -> Option<Surface> {
+    if material.opacity < OPAQUE_FROM {
+        return None;
+    }
+    let texture = material.colormap.as_ref().and_then(|n| textures.binary_search_by(|(name, _)| name.cmp(n)).ok());
+    Some(match texture {
+        None => Surface::Plain,
+        Some(t) if has_holes[t] => Surface::Cutout,
+        Some(_) => Surface::Textured,
+    })
+}
+
+fn summarize_object(object: &SceneObject, surfaces: &[Option<Surface>]) -> ObjectSummary {
+    let mesh = &object.mesh;
+    let bounds = mesh
+        .positions
+        .first()
+        .map(|&first| mesh.positions.iter().fold((first, first), |(low, high), &p| (low.min(p), high.max(p))));
+    let mut kinds: Vec<Surface> =
+        mesh.groups.iter().filter(|g| g.count > 0).filter_map(|g| surfaces[g.material as usize]).collect();
+    kinds.sort();
+    kinds.dedup();
+    ObjectSummary {
+        bounds,
+        presence: object.presence,
+        class: object.class as u8,
+        instance: object.instance,
+        level: object.level,
+        triangles: mesh.triangles.len() as u64,
+        surfaces: kinds,
+    }
+}
