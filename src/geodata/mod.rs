@@ -1,5 +1,6 @@
 //! Map and elevation: files → [`site::Site`] (local frame, features, terrain).
 
+pub mod elevation;
 pub mod feature;
 pub mod features;
 mod geojson;
@@ -8,3 +9,4 @@ pub mod map;
 pub mod osm;
 pub mod projection;
 pub mod tags;
+pub mod terrain;

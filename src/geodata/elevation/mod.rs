@@ -14,7 +14,7 @@ mod tests;
 use std::io::{Cursor, Read};
 
 pub use error::{ElevationError, ElevationProblem};
-pub use placement::LonLatBox;
+pub use placement::{LonLatBox, Placement};
 pub use raster::{IMPLAUSIBLE_M, Raster};
 
 /// Largest unpacked size of a packed file, bytes.

@@ -100,7 +100,28 @@ impl Raster {
         &self.placement
     }
 
+    /// Index and place of every void cell.
+    pub(crate) fn void_places(&self) -> Vec<(usize, (f64, f64))> {
+        let voids = self.heights.iter().enumerate().filter(|(_, h)| h.is_nan()).map(|(i, _)| i);
+        let centre = |i: usize| {
+            DVec2::new((i % self.placement.width) as f64 + 0.5, (i / self.placement.width) as f64 + 0.5)
+        };
+        voids.filter_map(|i| Some((i, self.placement.place_of(centre(i))?))).collect()
+    }
+
     pub(crate) fn heights_mut(&mut self) -> &mut [f32] {
         &mut self.heights
+    }
+
+    /// A copy of some of the cells.
+    #[cfg(test)]
+    pub(crate) fn cropped(&self, column: usize, row: usize, width: usize, height: usize) -> Self {
+        let window = super::placement::Window { column, row, width, height };
+        let crs = super::crs::Crs::parse(self.crs()).expect("parsed before");
+        let (w, h) = self.size();
+        let placement = Placement::new(crs, self.placement.crs_from_cell, w, h).expect("placed before");
+        let rows = self.heights.chunks(w).skip(row).take(height);
+        let heights = rows.flat_map(|r| r[column..column + width].to_vec()).collect();
+        Raster::new(&self.name, placement.cropped(window), heights)
     }
 }
