@@ -74,6 +74,18 @@ pub struct TriMesh {
     pub groups: Vec<Group>,
 }
 
+impl TriMesh {
+    /// Adds the triangles of another mesh whose groups number the same materials.
+    pub fn append(&mut self, other: &TriMesh) {
+        let (vertices, triangles) = (self.positions.len() as u32, self.triangles.len() as u32);
+        self.positions.extend_from_slice(&other.positions);
+        self.normals.extend_from_slice(&other.normals);
+        self.uvs.extend_from_slice(&other.uvs);
+        self.triangles.extend(other.triangles.iter().map(|t| t.map(|i| vertices + i)));
+        self.groups.extend(other.groups.iter().map(|g| Group { first: triangles + g.first, ..*g }));
+    }
+}
+
 /// One feature of the scene in one state.
 #[derive(Clone, Debug)]
 pub struct SceneObject {
@@ -83,7 +95,8 @@ pub struct SceneObject {
     pub instance: u32,
     pub class: SceneClass,
     pub presence: Presence,
-    /// Number of the change block that touched the feature, from 1; 0 for unchanged features.
+    /// Number of the change block that the presence depends on, from 1; 0 for what no change touches. Ground that a
+    /// change takes over carries the number too, as an object of its own.
     pub change: u16,
     /// Level (damage grade) within the change, from 1; 0 for unchanged features.
     pub level: u8,

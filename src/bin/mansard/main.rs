@@ -1,1 +1,45 @@
-fn main(){}
+//! The program: words in, exit code out. The only code that prints or exits.
+
+mod args;
+mod build;
+mod check;
+mod derive;
+mod dump;
+mod footprint;
+mod plan;
+mod progress;
+mod render;
+mod report;
+mod town;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use args::{Args, Command};
+use progress::Reporter;
+
+/// The input is wrong.
+const WRONG: u8 = 1;
+/// The command line is wrong, or the machine cannot do it.
+const UNABLE: u8 = 2;
+
+fn main() -> ExitCode {
+    let args = Args::parse();
+    let reporter = Reporter::new(args.quiet);
+    let result = match args.command {
+        Command::Check { files, format, recipe } => check::run(&files, format, &recipe),
+        Command::Derive(derive) => derive::run(&derive),
+        Command::Build { recipe, output, options, work } => build::run(&recipe, &output, &options, &work, &reporter),
+        Command::Render { recipe, output, views, options, work } => {
+            render::run(&recipe, &output, &views, &options, &work, &reporter)
+        }
+        Command::Plan { recipe, format, options, work } => plan::run(&recipe, format, &options, &work, &reporter),
+        Command::Dump { phase, file } => dump::run(phase, &file),
+        Command::Town { seed, buildings, output, name } => town::run(seed, buildings, &output, &name, &reporter),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => failure.report(),
+    }
+}

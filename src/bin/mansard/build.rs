@@ -1,0 +1,86 @@
+//! `mansard build`: the meshes of a recipe's scenes as binary glTF, and the command line's part of a recipe.
+
+use std::path::{Path, PathBuf};
+
+use mansard::output::write_bytes;
+use mansard::pipeline::{self, BuiltScene, Recipe, build_scene, load_recipe};
+use mansard::scene::export::to_glb;
+use mansard::source::SourceMap;
+
+use crate::args::{RecipeOptions, WorkOptions};
+use crate::progress::Reporter;
+use crate::report::{self, Failure};
+
+impl RecipeOptions {
+    /// The library's form of these options.
+    pub fn recipe(&self) -> Result<pipeline::RecipeOptions, Failure> {
+        let argument = |text: &String| match text.split_once('=') {
+            Some((name, value)) if !name.is_empty() => Ok((name.to_owned(), value.to_owned())),
+            _ => Err(Failure::unable(format!("--set {text}: write NAME=VALUE"))),
+        };
+        let arguments = self.set.iter().map(argument).collect::<Result<_, _>>()?;
+        Ok(pipeline::RecipeOptions { arguments, allow: self.allow.clone() })
+    }
+}
+
+/// Sets the number of threads, once per process.
+pub fn use_threads(work: &WorkOptions) -> Result<(), Failure> {
+    match work.jobs {
+        Some(0) => Err(Failure::unable("--jobs 0: at least one thread is needed")),
+        Some(jobs) => rayon::ThreadPoolBuilder::new()
+            .num_threads(jobs)
+            .build_global()
+            .map_err(|e| Failure::unable(format!("--jobs {jobs}: {e}"))),
+        None => Ok(()),
+    }
+}
+
+/// Reads a recipe and prints its warnings.
+pub fn load(path: &Path, options: &RecipeOptions, sources: &mut SourceMap) -> Result<Recipe, Failure> {
+    let recipe = load_recipe(path, &options.recipe()?, sources).map_err(|e| report::failure(e, sources))?;
+    report::print(&recipe.warnings, sources);
+    Ok(recipe)
+}
+
+pub fn run(
+    path: &Path,
+    output: &Path,
+    options: &RecipeOptions,
+    work: &WorkOptions,
+    reporter: &Reporter,
+) -> Result<(), Failure> {
+    use_threads(work)?;
+    let mut sources = SourceMap::default();
+    let recipe = load(path, options, &mut sources)?;
+    let several = recipe.spec.scenes.len() > 1;
+    for index in 0..recipe.spec.scenes.len() {
+        let built = build_scene(&recipe, index, reporter).map_err(|e| report::failure(e, &sources))?;
+        let file = if several { scene_file(output, &built.record.name) } else { output.to_owned() };
+        let bytes = to_glb(&built.scene, &recipe.attribution()).map_err(|e| Failure::unable(e.to_string()))?;
+        write_bytes(&file, &bytes).map_err(|e| Failure::unable(e.to_string()))?;
+        tell(&built, &sources, reporter);
+        reporter.say(&format!("wrote {} ({} bytes)", file.display(), bytes.len()));
+    }
+    Ok(())
+}
+
+fn scene_file(output: &Path, scene: &str) -> PathBuf {
+    let stem = output.file_stem().unwrap_or_default().to_string_lossy();
+    output.with_file_name(format!("{stem}-{scene}.glb"))
+}
+
+/// Says what became of the scene's features.
+pub fn tell(built: &BuiltScene, sources: &SourceMap, reporter: &Reporter) {
+    report::print(&built.diagnostics, sources);
+    for line in &built.prints {
+        reporter.say(line);
+    }
+    let ledger = &built.record.ledger;
+    reporter.say(&format!(
+        "{:>10} {}: {} ok, {} repaired, {} fell back, {} skipped",
+        "ledger", built.record.name, ledger.ok, ledger.repaired, ledger.fell_back, ledger.skipped
+    ));
+    for (what, count) in &ledger.assumptions {
+        reporter.say(&format!("{:>10} {what} ({count})", "assumed"));
+    }
+}

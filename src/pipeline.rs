@@ -1,1 +1,0 @@
-//! The phases in order, on one screen.

@@ -1,0 +1,119 @@
+//! One scene of a recipe, from files to meshes with labels.
+
+use super::derivation::{assign, derive_features};
+use super::error::PipelineError;
+use super::place::{Place, place};
+use super::progress::Progress;
+use super::recipe::Recipe;
+use super::record::{Reports, geometry_hash};
+use super::selection::changes;
+use super::textures;
+use crate::dataset::manifest::{ChangeRecord, ChangedFeature, SceneRecord};
+use crate::diagnostics::Diagnostics;
+use crate::geodata::ledger::{Ledger, Outcome};
+use crate::geodata::projection::LocalFrame;
+use crate::geodata::terrain::Terrain;
+use crate::interpreter::seed::Seed;
+use crate::scene::Scene;
+use crate::scene::assemble::{FeatureParts, TERRAIN_INSTANCE, assemble, ground_layers};
+use crate::scene::ground::ground_mesh;
+
+/// Greatest vertical distance allowed between the ground mesh and the elevation data, metres.
+pub const TERRAIN_TOLERANCE_M: f64 = 0.5;
+
+/// A scene with everything that is known about how it came to be.
+pub struct BuiltScene {
+    pub scene: Scene,
+    pub frame: LocalFrame,
+    pub terrain: Terrain,
+    pub record: SceneRecord,
+    /// Mistakes met while deriving.
+    pub diagnostics: Diagnostics,
+    pub prints: Vec<String>,
+}
+
+/// Builds the scene with this index.
+pub fn build_scene(recipe: &Recipe, index: usize, progress: &dyn Progress) -> Result<BuiltScene, PipelineError> {
+    let spec = &recipe.spec.scenes[index];
+
+    // Read the map and the elevation.
+    let place = place(recipe, spec, progress)?;
+
+    // Draw what changes.
+    let assigned = assign(&spec.rules, &place.features);
+    let has_rules: Vec<bool> = assigned.iter().map(Option::is_some).collect();
+    let drawn = changes(&recipe.spec.changes, &place.features, &has_rules, Seed::root(spec.seed));
+
+    // Derive every feature in every state.
+    let assets = recipe.assets();
+    let derived = derive_features(recipe, spec, &place, (&assigned, &drawn), &assets, progress);
+
+    // Lay the ground under them and put everything together.
+    progress.begin("scene", None);
+    let layers = ground_layers(&derived.features);
+    let ground = ground_mesh(&place.area, &place.terrain, TERRAIN_TOLERANCE_M, &layers)
+        .map_err(|source| PipelineError::Ground { scene: spec.name.clone(), source })?;
+    let changed = change_records(recipe, &derived.features, &drawn.candidates);
+    let mut scene = assemble(derived.features, &ground);
+    let textures = textures::load(&scene.materials, &recipe.access)?;
+    scene.textures = textures.images;
+    let Place { frame, terrain, mut ledger, features, .. } = place;
+    ledger.merge(derived.ledger);
+    for missing in textures.missing {
+        ledger.record(format!("texture {missing}"), Outcome::FellBack("drawn without texture".to_owned()));
+    }
+    let record = record(&scene, spec.name.clone(), spec.seed, &frame, ground.worst_error, changed, derived.reports, ledger, features.len());
+    progress.end(&format!("{} triangles", record.triangles));
+    Ok(BuiltScene { scene, frame, terrain, record, diagnostics: derived.diagnostics, prints: derived.prints })
+}
+
+#[expect(clippy::too_many_arguments, reason = "the fields of one record")]
+fn record(
+    scene: &Scene,
+    name: String,
+    seed: u64,
+    frame: &LocalFrame,
+    terrain_error_m: f64,
+    changes: Vec<ChangeRecord>,
+    reports: Reports,
+    ledger: Ledger,
+    features: usize,
+) -> SceneRecord {
+    let (lon, lat) = frame.centre();
+    SceneRecord {
+        name,
+        seed,
+        origin: [lon, lat],
+        geometry_sha256: geometry_hash(scene),
+        features,
+        triangles: scene.objects.iter().map(|o| o.mesh.triangles.len()).sum(),
+        terrain_error_m,
+        changes,
+        reports: reports.0,
+        ledger,
+    }
+}
+
+fn change_records(recipe: &Recipe, features: &[FeatureParts], candidates: &[usize]) -> Vec<ChangeRecord> {
+    let mut records: Vec<ChangeRecord> = recipe
+        .spec
+        .changes
+        .iter()
+        .zip(candidates)
+        .map(|(change, &candidates)| ChangeRecord {
+            name: change.name.clone(),
+            non_target: change.non_target,
+            candidates,
+            changed: Vec::new(),
+        })
+        .collect();
+    for (number, feature) in features.iter().enumerate() {
+        let Some(state) = feature.states.iter().find(|s| s.change > 0) else { continue };
+        records[state.change as usize - 1].changed.push(ChangedFeature {
+            feature: feature.feature.to_string(),
+            instance: TERRAIN_INSTANCE + 1 + number as u32,
+            level: state.level,
+        });
+    }
+    records
+}

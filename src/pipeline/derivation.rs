@@ -1,0 +1,283 @@
+//! Features → parts. In: a scene's features with their rules and changes. Out: one [`FeatureParts`] per feature that
+//! has something to show, the ledger, the reports and the mistakes met while deriving. Parallel; order and results do not
+//! depend on the number of threads.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
+
+use super::place::Place;
+use super::progress::Progress;
+use super::recipe::Recipe;
+use super::record::Reports;
+use super::selection::{Changes, Touched};
+use crate::diagnostics::{Diagnostics, Severity};
+use crate::geodata::feature::{Feature, FeatureClass, Outline};
+use crate::geodata::features::road::{Ribbon, ribbon};
+use crate::geodata::ledger::{Ledger, Outcome};
+use crate::geodata::tags::{self, Defaults, TagValue};
+use crate::geometry::{Face, Mesh, Polygon};
+use crate::interpreter::assets::Assets;
+use crate::interpreter::limits::Limits;
+use crate::interpreter::seed::Seed;
+use crate::interpreter::tree::{Leaf, Scalar, ShapeTree};
+use crate::interpreter::{StartShape, derive};
+use crate::scene::assemble::{FeatureParts, StateParts};
+use crate::scene::parts::{Parts, Stand, has_flat_face, parts};
+use crate::scene::{Presence, SceneClass};
+use crate::spec::render_spec::{
+    AttributeValue, ChangeSpec, DrawnValue, LevelEffect, RuleAssignment, SceneSpec, ValueSpec,
+};
+
+/// What derivation gives.
+pub struct Derivation {
+    pub features: Vec<FeatureParts>,
+    pub ledger: Ledger,
+    pub reports: Reports,
+    pub diagnostics: Diagnostics,
+    /// Lines of `print`, in the order of the features.
+    pub prints: Vec<String>,
+}
+
+/// One feature's share of it.
+#[derive(Default)]
+struct Derived {
+    states: Vec<StateParts>,
+    ledger: Ledger,
+    reports: Reports,
+    diagnostics: Diagnostics,
+    prints: Vec<String>,
+}
+
+/// Everything a feature's derivation may read.
+struct Context<'a> {
+    recipe: &'a Recipe,
+    scene: &'a SceneSpec,
+    place: &'a Place,
+    assets: &'a dyn Assets,
+    limits: Limits,
+    defaults: Defaults,
+    seed: Seed,
+}
+
+/// Index of the first rule that takes each feature.
+pub fn assign(rules: &[RuleAssignment], features: &[Feature]) -> Vec<Option<usize>> {
+    features.iter().map(|f| rules.iter().position(|r| r.filter.matches(f.class, &f.tags, f.id))).collect()
+}
+
+/// Derives all features of a scene in all their states.
+pub fn derive_features(
+    recipe: &Recipe,
+    scene: &SceneSpec,
+    place: &Place,
+    (assigned, changes): (&[Option<usize>], &Changes),
+    assets: &dyn Assets,
+    progress: &dyn Progress,
+) -> Derivation {
+    let context = Context {
+        recipe,
+        scene,
+        place,
+        assets,
+        limits: Limits::default(),
+        defaults: Defaults::default(),
+        seed: Seed::root(scene.seed).named("feature"),
+    };
+    progress.begin("derive", Some(place.features.len() as u64));
+    let derived: Vec<Derived> = place
+        .features
+        .par_iter()
+        .zip(assigned.par_iter().zip(&changes.touched))
+        .map(|(feature, (rule, touched))| {
+            let derived = context.feature(feature, *rule, *touched);
+            progress.step(1);
+            derived
+        })
+        .collect();
+    let mut out = Derivation {
+        features: Vec::new(),
+        ledger: Ledger::default(),
+        reports: Reports::default(),
+        diagnostics: Diagnostics::default(),
+        prints: Vec::new(),
+    };
+    for (feature, derived) in place.features.iter().zip(derived) {
+        out.ledger.merge(derived.ledger);
+        out.reports.merge(derived.reports);
+        out.diagnostics.extend(derived.diagnostics);
+        out.prints.extend(derived.prints);
+        if !derived.states.is_empty() {
+            let class = scene_class(feature.class);
+            out.features.push(FeatureParts { feature: feature.id, class, states: derived.states });
+        }
+    }
+    let triangles: usize =
+        out.features.iter().flat_map(|f| &f.states).map(|s| s.parts.solid.triangles.len()).sum();
+    progress.end(&format!("{} features, {triangles} triangles", out.features.len()));
+    out.diagnostics = out.diagnostics.sorted();
+    out
+}
+
+fn scene_class(class: FeatureClass) -> SceneClass {
+    match class {
+        FeatureClass::Building | FeatureClass::BuildingPart => SceneClass::Building,
+        FeatureClass::Highway => SceneClass::Highway,
+        FeatureClass::Landuse => SceneClass::Landuse,
+        FeatureClass::Natural => SceneClass::Natural,
+        FeatureClass::Leisure => SceneClass::Leisure,
+        FeatureClass::Water => SceneClass::Water,
+    }
+}
+
+impl Context<'_> {
+    fn feature(&self, feature: &Feature, rule: Option<usize>, touched: Option<Touched>) -> Derived {
+        let mut out = Derived::default();
+        let Some(rule) = rule else {
+            let reason = "no rule of the recipe is for it".to_owned();
+            out.ledger.record(feature.id, Outcome::Skipped(reason));
+            return out;
+        };
+        let Some(lot) = Lot::new(feature, self.place) else {
+            out.ledger.record(feature.id, Outcome::Skipped("it has no area in the scene".to_owned()));
+            return out;
+        };
+        let own = &self.scene.rules[rule];
+        let mut outcome = Outcome::Ok;
+        match touched {
+            None => self.state(feature, &lot, own, (Presence::Both, 0, 0), &mut out, &mut outcome),
+            Some(touched) => {
+                let change = &self.recipe.spec.changes[touched.change];
+                let key = |presence| (presence, touched.change as u16 + 1, touched.level as u8 + 1);
+                let effect = &change.levels[touched.level].effect;
+                if !matches!(effect, LevelEffect::Built) {
+                    self.state(feature, &lot, own, key(Presence::BeforeOnly), &mut out, &mut outcome);
+                }
+                if let Some(after) = self.after(feature, own, change, effect) {
+                    self.state(feature, &lot, after, key(Presence::AfterOnly), &mut out, &mut outcome);
+                }
+            }
+        }
+        out.ledger.record(feature.id, outcome);
+        out
+    }
+
+    /// The rules of the state *after*; `None` where the feature is gone.
+    fn after<'a>(
+        &self,
+        feature: &Feature,
+        own: &'a RuleAssignment,
+        _change: &ChangeSpec,
+        effect: &'a LevelEffect,
+    ) -> Option<&'a RuleAssignment> {
+        match effect {
+            LevelEffect::Rules(rules) => {
+                rules.iter().find(|r| r.filter.matches(feature.class, &feature.tags, feature.id)).or(Some(own))
+            }
+            LevelEffect::Demolished => None,
+            LevelEffect::Built => Some(own),
+        }
+    }
+
+    /// Derives one state and adds what it gives.
+    fn state(
+        &self,
+        feature: &Feature,
+        lot: &Lot,
+        rule: &RuleAssignment,
+        (presence, change, level): (Presence, u16, u8),
+        out: &mut Derived,
+        outcome: &mut Outcome,
+    ) {
+        let counts_once = presence != Presence::AfterOnly;
+        let attributes = self.attributes(feature, rule, if counts_once { Some(&mut out.ledger) } else { None });
+        let start = StartShape {
+            mesh: lot.mesh.clone(),
+            start_rule: rule.start.clone(),
+            attributes,
+            seed: self.seed.named(&feature.id.to_string()),
+        };
+        let tree = derive(self.recipe.programs.get(&rule.file), &start, self.assets, &self.limits);
+        if let Some(error) = tree.diagnostics.iter().find(|d| d.severity == Severity::Error) {
+            *outcome = Outcome::Skipped(format!("its rules failed: {}", error.message));
+            out.diagnostics.extend(tree.diagnostics);
+            return;
+        }
+        let parts = lot.parts(&tree.leaves);
+        if counts_once {
+            out.reports.add(&tree.reports);
+        }
+        let ShapeTree { diagnostics, prints, .. } = tree;
+        out.diagnostics.extend(diagnostics);
+        out.prints.extend(prints);
+        out.states.push(StateParts { presence, change, level, parts });
+    }
+
+    /// The attributes of a start shape: tags, defaults of the recipe, then the assignment's own values.
+    fn attributes(
+        &self,
+        feature: &Feature,
+        rule: &RuleAssignment,
+        ledger: Option<&mut Ledger>,
+    ) -> Vec<(Arc<str>, Scalar)> {
+        let mut unused = Ledger::default();
+        let ledger = ledger.unwrap_or(&mut unused);
+        let seed = self.seed.named(&feature.id.to_string());
+        let mut filled = feature.clone();
+        for missing in &self.scene.missing {
+            let taken = missing.filter.matches(feature.class, &feature.tags, feature.id);
+            if taken && !filled.tags.contains_key(missing.tag.as_str()) {
+                let value = drawn_text(&missing.value.draw(seed.named("missing").named(&missing.tag)));
+                ledger.assume(format!("{}: filled by the recipe", missing.tag));
+                filled.tags.insert(missing.tag.as_str().into(), value.into());
+            }
+        }
+        let mut list: Vec<(Arc<str>, Scalar)> = Vec::new();
+        for (name, value) in tags::attributes(&filled, &self.defaults, ledger) {
+            let value = match value {
+                TagValue::Number(x) => Scalar::Float(x),
+                TagValue::Bool(b) => Scalar::Bool(b),
+                TagValue::Text(text) => Scalar::String(text),
+            };
+            set(&mut list, name, value);
+        }
+        for attribute in &rule.attributes {
+            let draw = |value: &ValueSpec| scalar(value.draw(seed.named("attribute").named(&attribute.name)));
+            let value = match &attribute.value {
+                AttributeValue::Value(value) => Some(draw(value)),
+                AttributeValue::Tag { key, default } => match filled.tags.get(key.as_str()) {
+                    Some(text) => Some(Scalar::String(text.clone())),
+                    None => default.as_ref().map(draw),
+                },
+            };
+            if let Some(value) = value {
+                set(&mut list, attribute.name.as_str().into(), value);
+            }
+        }
+        list
+    }
+}
+
+fn set(list: &mut Vec<(Arc<str>, Scalar)>, name: Arc<str>, value: Scalar) {
+    match list.iter_mut().find(|(n, _)| *n == name) {
+        Some((_, old)) => *old = value,
+        None => list.push((name, value)),
+    }
+}
+
+fn scalar(value: DrawnValue) -> Scalar {
+    match value {
+        DrawnValue::Number(x) => Scalar::Float(x),
+        DrawnValue::Bool(b) => Scalar::Bool(b),
+        DrawnValue::Text(text) => Scalar::String(text.into()),
+    }
+}
+
+fn drawn_text(value: &DrawnValue) -> String {
+    match value {
+        DrawnValue::Number(x) => x.to_string(),
+        DrawnValue::Bool(b) => if *b { "yes" } else { "no" }.to_owned(),
+        DrawnValue::Text(text) => text.clone(),
+    }
+}

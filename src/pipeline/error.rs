@@ -1,0 +1,55 @@
+//! Why a run stopped. The user's mistakes come as diagnostics, the world's as typed errors that name the file.
+
+use std::path::PathBuf;
+
+use crate::dataset::DatasetError;
+use crate::diagnostics::Diagnostics;
+use crate::geodata::elevation::ElevationError;
+use crate::geodata::map::MapError;
+use crate::geodata::projection::ProjectionError;
+use crate::gpu::GpuError;
+use crate::output::OutputError;
+use crate::scene::export::ExportError;
+use crate::scene::ground::GroundError;
+use crate::source::AccessError;
+
+#[derive(Debug, thiserror::Error)]
+pub enum PipelineError {
+    /// Mistakes in recipes or rules; the texts are in the run's [`crate::source::SourceMap`].
+    #[error("the recipe or its rules have errors")]
+    Diagnostics(Diagnostics),
+    #[error(transparent)]
+    Access(#[from] AccessError),
+    #[error(transparent)]
+    Map(#[from] MapError),
+    #[error(transparent)]
+    Elevation(#[from] ElevationError),
+    #[error(transparent)]
+    Projection(#[from] ProjectionError),
+    #[error("{0}: the map has no building, road or bounds to take the scene's area from; name an area in the recipe")]
+    NoExtent(String),
+    #[error("the ground of scene `{scene}` cannot be meshed: {source}")]
+    Ground { scene: String, source: GroundError },
+    #[error("texture {}: {source}", path.display())]
+    Texture { path: PathBuf, source: image::ImageError },
+    #[error(transparent)]
+    Export(#[from] ExportError),
+    #[error(transparent)]
+    Output(#[from] OutputError),
+    #[error(transparent)]
+    Dataset(#[from] DatasetError),
+    #[error(transparent)]
+    Gpu(#[from] GpuError),
+    #[error("no view of the recipe is called {0}; `mansard plan` lists them")]
+    NoSuchView(String),
+}
+
+impl PipelineError {
+    /// 1 where the input is wrong, 2 where the machine or the surroundings are.
+    pub fn exit_code(&self) -> u8 {
+        match self {
+            PipelineError::Output(_) | PipelineError::Dataset(_) | PipelineError::Gpu(_) | PipelineError::NoSuchView(_) => 2,
+            _ => 1,
+        }
+    }
+}

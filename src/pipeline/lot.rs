@@ -1,0 +1,126 @@
+//! The start shape of a feature. In: its outline and the terrain. Out: a mesh in its plane, and how what grows on it
+//! meets the ground.
+
+use glam::{DVec2, DVec3};
+
+use crate::geodata::feature::{Feature, FeatureClass, Outline};
+use crate::geodata::features::road::ribbon;
+use crate::geodata::terrain::Terrain;
+use crate::geometry::{Face, Mesh, Polygon};
+use crate::interpreter::tree::Leaf;
+use crate::scene::parts::{Parts, Stand, has_flat_face, parts};
+
+/// How far walls go on below the base on uneven ground, metres: more than the ground mesh's usual tolerance.
+const SKIRT_M: f64 = 1.0;
+/// Ground classes from below to above; larger numbers cover smaller ones. Within a class small areas cover large ones.
+const LANDUSE: i32 = 1000;
+const LEISURE: i32 = 2000;
+const NATURAL: i32 = 3000;
+const WATER: i32 = 4000;
+const ROAD: i32 = 5000;
+const FOOTPRINT: i32 = 9000;
+
+/// Where a feature's derivation begins.
+pub struct Lot {
+    /// World coordinates in the plane y = `base`.
+    pub mesh: Mesh,
+    pub base: f64,
+    polygons: Vec<Polygon>,
+    stand: Stand,
+    /// For features that stand level unless their rules leave flat faces: how far the ground's mean is above the base.
+    rise: f64,
+}
+
+impl Lot {
+    /// `None` if the feature covers no area.
+    pub fn new(feature: &Feature, terrain: &Terrain) -> Option<Lot> {
+        let polygons = match &feature.outline {
+            Outline::Area(polygon) => vec![polygon.clone()],
+            Outline::Line(line) => ribbon(feature, line),
+        };
+        if polygons.iter().all(|p| p.outer.len() < 3) {
+            return None;
+        }
+        let (least, mean) = heights(&polygons, terrain);
+        let building = matches!(feature.class, FeatureClass::Building | FeatureClass::BuildingPart);
+        let (base, stand) = if building {
+            (least, Stand::Level { skirt: if terrain.is_flat() { 0.0 } else { SKIRT_M } })
+        } else if let Some(deck) = deck(feature, terrain, mean) {
+            (mean, deck)
+        } else {
+            (mean, Stand::Draped { priority: priority(feature, &polygons), lift: 0.0 })
+        };
+        Some(Lot { mesh: mesh(&polygons, base), base, polygons, stand, rise: mean - least })
+    }
+
+    /// Sorts the leaves of a derivation. Leaves with flat faces on a building's footprint, such as ash, drape it.
+    pub fn parts(&self, leaves: &[Leaf]) -> Parts {
+        let draped = Stand::Draped { priority: FOOTPRINT, lift: self.rise };
+        let level = matches!(self.stand, Stand::Level { .. });
+        let stand = if level && has_flat_face(leaves, self.base) { &draped } else { &self.stand };
+        let nothing = Polygon::default();
+        parts(leaves, self.base, stand, self.polygons.first().unwrap_or(&nothing))
+    }
+}
+
+/// Least and mean ground height along the outlines, metres.
+fn heights(polygons: &[Polygon], terrain: &Terrain) -> (f64, f64) {
+    let least = polygons.iter().map(|p| terrain.least_under(p)).fold(f64::INFINITY, f64::min);
+    let corners: Vec<DVec2> = polygons.iter().flat_map(Polygon::rings).flatten().copied().collect();
+    let mean = corners.iter().map(|p| terrain.height(p.x, p.y)).sum::<f64>() / corners.len() as f64;
+    (least, mean.max(least))
+}
+
+fn mesh(polygons: &[Polygon], base: f64) -> Mesh {
+    let mut mesh = Mesh::default();
+    for polygon in polygons {
+        let mut rings = polygon.rings().map(|ring| {
+            let first = mesh.positions.len() as u32;
+            mesh.positions.extend(ring.iter().map(|p| DVec3::new(p.x, base, -p.y)));
+            (first..first + ring.len() as u32).collect::<Vec<u32>>()
+        });
+        let outer = rings.next().expect("a polygon has an outer ring");
+        let holes = rings.collect();
+        mesh.faces.push(Face { outer, holes, uvs: Vec::new() });
+    }
+    mesh
+}
+
+/// A bridge spans its ends; over a valley the ground in between does not matter.
+fn deck(feature: &Feature, terrain: &Terrain, base: f64) -> Option<Stand> {
+    let bridge = feature.tags.get("bridge").is_some_and(|v| &**v != "no");
+    let Outline::Line(line) = &feature.outline else { return None };
+    let (from, to) = (*line.first()?, *line.last()?);
+    let layer = feature.tags.get("layer").and_then(|l| l.parse::<f64>().ok()).unwrap_or(1.0).clamp(1.0, 5.0);
+    // A deck lies a little above the street it carries on, so that it covers what passes under it.
+    let lift = 0.15 * layer;
+    let height = |p: DVec2| terrain.height(p.x, p.y) - base + lift;
+    bridge.then(|| Stand::Deck { from, to, heights: [height(from), height(to)] })
+}
+
+fn priority(feature: &Feature, polygons: &[Polygon]) -> i32 {
+    let area: f64 = polygons.iter().map(Polygon::area).sum();
+    // 0..=990, growing as the area shrinks.
+    let small = (990.0 - 45.0 * libm::log2(area.max(1.0))).clamp(0.0, 990.0) as i32;
+    match feature.class {
+        FeatureClass::Landuse => LANDUSE + small,
+        FeatureClass::Leisure => LEISURE + small,
+        FeatureClass::Natural => NATURAL + small,
+        FeatureClass::Water => WATER + small,
+        FeatureClass::Building | FeatureClass::BuildingPart => FOOTPRINT,
+        FeatureClass::Highway => {
+            let layer = feature.tags.get("layer").and_then(|l| l.parse::<i32>().ok()).unwrap_or(0).clamp(-5, 5);
+            ROAD + 100 * layer + rank(feature.tags.get("highway").map_or("", |v| v))
+        }
+    }
+}
+
+/// Larger roads cover smaller ones where they meet.
+fn rank(class: &str) -> i32 {
+    const ORDER: &[&str] = &[
+        "steps", "path", "footway", "cycleway", "bridleway", "pedestrian", "track", "service", "living_street",
+        "residential", "unclassified", "tertiary_link", "tertiary", "secondary_link", "secondary", "primary_link",
+        "primary", "trunk_link", "trunk", "motorway_link", "motorway",
+    ];
+    ORDER.iter().position(|c| *c == class).unwrap_or(9) as i32
+}

@@ -1,0 +1,25 @@
+//! The phases in order, on one screen.
+//!
+//! In: a recipe's path and the command line's choices. Out: scenes ([`build_scene`]), plans ([`plan_views`]) and
+//! datasets ([`render_dataset`]).
+
+mod build;
+mod derivation;
+mod error;
+mod place;
+mod progress;
+mod recipe;
+mod record;
+mod render;
+mod rules;
+mod selection;
+pub mod shipped;
+mod textures;
+mod views;
+
+pub use build::{BuiltScene, build_scene};
+pub use error::PipelineError;
+pub use progress::{Progress, Silent};
+pub use recipe::{Recipe, RecipeOptions, load_recipe};
+pub use render::{RenderOptions, RenderSummary, render_dataset};
+pub use views::{PlannedDataset, plan_views};

@@ -1,0 +1,75 @@
+//! Map and elevation of one scene. In: the recipe's scene block. Out: a [`Place`]: local frame, features, terrain, area.
+
+use std::path::PathBuf;
+
+use glam::DVec2;
+
+use super::error::PipelineError;
+use super::progress::Progress;
+use super::recipe::Recipe;
+use crate::geodata::elevation::Raster;
+use crate::geodata::feature::Feature;
+use crate::geodata::ledger::Ledger;
+use crate::geodata::map::{Area, LonLatBox, extent, extract, read_map};
+use crate::geodata::projection::LocalFrame;
+use crate::geodata::terrain::Terrain;
+use crate::geometry::Ring;
+use crate::spec::render_spec::{AreaSpec, FileRef, SceneSpec};
+
+/// Everything the map and the elevation say about one scene.
+pub struct Place {
+    pub frame: LocalFrame,
+    /// Corners of the area in the plan, counter-clockwise.
+    pub area: Ring,
+    pub features: Vec<Feature>,
+    pub terrain: Terrain,
+    pub ledger: Ledger,
+}
+
+/// Reads and projects the inputs of a scene.
+pub fn place(recipe: &Recipe, scene: &SceneSpec, progress: &dyn Progress) -> Result<Place, PipelineError> {
+    let resolve = |files: &[FileRef]| -> Result<Vec<PathBuf>, PipelineError> {
+        Ok(files.iter().map(|f| f.resolve(&recipe.access)).collect::<Result<_, _>>()?)
+    };
+    let mut ledger = Ledger::default();
+
+    progress.begin("map", None);
+    let data = read_map(&resolve(&scene.maps)?)?;
+    let area = match &scene.area {
+        Some(spec) => area(spec)?,
+        None => {
+            let names: Vec<&str> = scene.maps.iter().map(|m| m.written.as_str()).collect();
+            Area::Box(extent(&data).ok_or_else(|| PipelineError::NoExtent(names.join(", ")))?)
+        }
+    };
+    let bounds = area.bounds().expect("an area of the recipe has corners");
+    let frame = LocalFrame::new((bounds.west + bounds.east) / 2.0, (bounds.south + bounds.north) / 2.0)?;
+    let project = |lon: f64, lat: f64| frame.forward(lon, lat).unwrap_or(DVec2::NAN);
+    let features = extract(&data, Some(&area), &project, &mut ledger);
+    let ring = area.ring(&project);
+    drop(data);
+    progress.end(&format!("{} features", features.len()));
+
+    progress.begin("elevation", None);
+    let rasters = resolve(&scene.elevations)?.iter().map(|p| Raster::read(p, None)).collect::<Result<Vec<_>, _>>()?;
+    let terrain =
+        if rasters.is_empty() { Terrain::flat() } else { Terrain::new(rasters, frame, &ring, &mut ledger)? };
+    progress.end(&format!("{} files", scene.elevations.len()));
+    Ok(Place { frame, area: ring, features, terrain, ledger })
+}
+
+/// The recipe's area in degrees; a size in metres becomes degrees about its centre.
+fn area(spec: &AreaSpec) -> Result<Area, PipelineError> {
+    Ok(match spec {
+        AreaSpec::BoundingBox { west, south, east, north } => {
+            Area::Box(LonLatBox { west: *west, south: *south, east: *east, north: *north })
+        }
+        AreaSpec::Around { latitude, longitude, width, height } => {
+            let frame = LocalFrame::new(*longitude, *latitude)?;
+            let (x, y) = (width / 2.0, height / 2.0);
+            let corners = [(-x, -y), (x, -y), (x, y), (-x, y)];
+            Area::Polygon(corners.iter().map(|&(x, y)| frame.inverse(DVec2::new(x, y))).collect())
+        }
+        AreaSpec::Polygon(corners) => Area::Polygon(corners.iter().map(|&(lat, lon)| (lon, lat)).collect()),
+    })
+}

@@ -1,0 +1,54 @@
+//! The recipe and the rules it names, checked. In: a path and the command line's arguments. Out: a [`Recipe`] whose
+//! programs are compiled, or all mistakes at once.
+
+use std::path::{Path, PathBuf};
+
+use super::error::PipelineError;
+use super::rules::{self, Programs};
+use crate::diagnostics::Diagnostics;
+use crate::source::{Access, AccessError, SourceMap};
+use crate::spec;
+use crate::spec::render_spec::RenderSpec;
+
+/// What the command line says about a recipe.
+#[derive(Clone, Debug, Default)]
+pub struct RecipeOptions {
+    /// Values of the recipe's arguments.
+    pub arguments: Vec<(String, String)>,
+    /// Folder trees that may be read besides the recipe's own.
+    pub allow: Vec<PathBuf>,
+}
+
+/// A checked recipe with everything needed to build its scenes.
+pub struct Recipe {
+    pub path: PathBuf,
+    pub spec: RenderSpec,
+    pub access: Access,
+    pub programs: Programs,
+    pub arguments: Vec<(String, String)>,
+    /// Warnings of the recipe and its rules.
+    pub warnings: Diagnostics,
+}
+
+/// Reads and checks a recipe and every rule file that it names.
+pub fn load_recipe(path: &Path, options: &RecipeOptions, sources: &mut SourceMap) -> Result<Recipe, PipelineError> {
+    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    if !path.is_file() {
+        let source = std::io::Error::new(std::io::ErrorKind::NotFound, "no such file");
+        return Err(AccessError::Io { path: path.display().to_string(), source }.into());
+    }
+    let mut access = Access::new(folder)?;
+    for tree in &options.allow {
+        access.allow(tree)?;
+    }
+    let (spec, mut diagnostics) = spec::load(path, &access, sources, &options.arguments);
+    let Some(spec) = spec else { return Err(PipelineError::Diagnostics(diagnostics.sorted())) };
+    rules::check_files(&spec, &access, &mut diagnostics);
+    let programs = rules::compile(&spec, &access, sources, &mut diagnostics);
+    let diagnostics = diagnostics.sorted();
+    if diagnostics.has_errors() {
+        return Err(PipelineError::Diagnostics(diagnostics));
+    }
+    let arguments = options.arguments.clone();
+    Ok(Recipe { path: path.to_owned(), spec, access, programs, arguments, warnings: diagnostics })
+}

@@ -1,0 +1,122 @@
+//! What the manifest says of a run. In: the recipe, the built scenes, the views. Out: the manifest's blocks.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use sha2::{Digest, Sha256};
+
+use super::recipe::Recipe;
+use crate::dataset::manifest::{InputFile, ReportRecord};
+use crate::dataset::writer::sha256;
+use crate::interpreter::tree::Report;
+use crate::scene::Scene;
+use crate::source::SourceMap;
+use crate::spec::render_spec::{FileRef, Origin};
+
+/// Sums of `report` over features.
+#[derive(Clone, Debug, Default)]
+pub struct Reports(pub BTreeMap<String, ReportRecord>);
+
+impl Reports {
+    pub fn add(&mut self, reports: &[Report]) {
+        for report in reports {
+            let record = ReportRecord { count: report.count, sum: report.sum, min: report.min, max: report.max };
+            self.join(report.name.to_string(), record);
+        }
+    }
+
+    pub fn merge(&mut self, other: Reports) {
+        for (name, record) in other.0 {
+            self.join(name, record);
+        }
+    }
+
+    fn join(&mut self, name: String, record: ReportRecord) {
+        let sum = self.0.entry(name).or_insert(ReportRecord { min: f64::INFINITY, max: f64::NEG_INFINITY, ..ReportRecord::default() });
+        sum.count += record.count;
+        sum.sum += record.sum;
+        sum.min = sum.min.min(record.min);
+        sum.max = sum.max.max(record.max);
+    }
+}
+
+/// Every input by content: texts as they were read, map and elevation files from disk.
+pub fn inputs(recipe: &Recipe, sources: &SourceMap) -> std::io::Result<Vec<InputFile>> {
+    let mut inputs: Vec<InputFile> = sources
+        .files()
+        .iter()
+        .map(|file| InputFile {
+            role: if file.name.ends_with(".cga") { "rules" } else { "recipe" },
+            name: base_name(&file.name),
+            bytes: file.text.len() as u64,
+            sha256: sha256(file.text.as_bytes()),
+        })
+        .collect();
+    for scene in &recipe.spec.scenes {
+        let files = scene.maps.iter().map(|f| ("map", f)).chain(scene.elevations.iter().map(|f| ("elevation", f)));
+        for (role, file) in files.filter(|(_, f)| f.origin != Origin::Shipped) {
+            inputs.push(input(role, file, recipe)?);
+        }
+    }
+    inputs.sort();
+    inputs.dedup();
+    Ok(inputs)
+}
+
+fn input(role: &'static str, file: &FileRef, recipe: &Recipe) -> std::io::Result<InputFile> {
+    let path = file.resolve(&recipe.access).map_err(std::io::Error::other)?;
+    let mut hash = Sha256::new();
+    let bytes = std::io::copy(&mut std::fs::File::open(path)?, &mut Hashing(&mut hash))?;
+    let sha256 = hash.finalize().iter().map(|b| format!("{b:02x}")).collect();
+    Ok(InputFile { role, name: base_name(&file.written), bytes, sha256 })
+}
+
+/// Lets a hash be written to.
+struct Hashing<'a>(&'a mut Sha256);
+
+impl std::io::Write for Hashing<'_> {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        self.0.update(bytes);
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        Ok(())
+    }
+}
+
+/// Manifests name files without folders, so that they do not depend on where a run took place.
+fn base_name(path: &str) -> String {
+    Path::new(path).file_name().map_or_else(|| path.to_owned(), |n| n.to_string_lossy().into_owned())
+}
+
+/// Hash of all geometry, materials and labels of a scene.
+pub fn geometry_hash(scene: &Scene) -> String {
+    let mut hash = Sha256::new();
+    for object in &scene.objects {
+        let labels = format!(
+            "{:?} {} {} {:?} {} {}",
+            object.feature.map(|f| f.to_string()),
+            object.instance,
+            object.class.name(),
+            object.presence,
+            object.change,
+            object.level
+        );
+        hash.update(labels.as_bytes());
+        let mesh = &object.mesh;
+        for p in &mesh.positions {
+            hash.update(bytemuck::bytes_of(p));
+        }
+        hash.update(bytemuck::cast_slice(&mesh.normals));
+        hash.update(bytemuck::cast_slice(&mesh.uvs));
+        hash.update(bytemuck::cast_slice(&mesh.triangles));
+        for group in &mesh.groups {
+            hash.update(format!("{group:?}").as_bytes());
+        }
+    }
+    for material in &scene.materials {
+        hash.update(format!("{material:?}").as_bytes());
+    }
+    hash.finalize().iter().map(|b| format!("{b:02x}")).collect()
+}
