@@ -1,0 +1,74 @@
+//! The door to the polygon engine. In: rings on the integer grid. Out: shapes on the same grid, outlines
+//! counter-clockwise, holes clockwise.
+//!
+//! `i_overlay` with its 32-bit integers: exact on coordinates up to 2^30, ours stay below (numerics 4.5).
+
+use std::collections::BTreeSet;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use i_overlay::core::fill_rule::FillRule;
+use i_overlay::core::overlay::{IntOverlayOptions, Overlay};
+use i_overlay::core::overlay_rule::OverlayRule;
+use i_overlay::core::solver::Solver;
+use i_overlay::i_float::int::point::IntPoint;
+
+/// A point in grid steps.
+pub type GridPoint = [i64; 2];
+pub type GridRing = Vec<GridPoint>;
+/// Outline first, then holes.
+pub type GridShape = Vec<GridRing>;
+
+/// The engine panicked or was given a coordinate beyond its range.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct EngineFailed;
+
+/// Largest coordinate the engine takes.
+pub const ENGINE_LIMIT: i64 = (1 << 30) - 1;
+
+/// Fills subject and clip by the non-zero rule and combines them. Straight points of the input and cut points stay.
+pub fn overlay(subject: &[GridRing], clip: &[GridRing], rule: OverlayRule) -> Result<Vec<GridShape>, EngineFailed> {
+    let in_range = |r: &GridRing| r.iter().flatten().all(|c| c.abs() <= ENGINE_LIMIT);
+    if !subject.iter().chain(clip).all(in_range) {
+        return Err(EngineFailed);
+    }
+    let engine = |rings: &[GridRing]| -> Vec<Vec<IntPoint<i32>>> {
+        rings.iter().map(|r| r.iter().map(|p| IntPoint::new(p[0] as i32, p[1] as i32)).collect()).collect()
+    };
+    let (subject, clip) = (engine(subject), engine(clip));
+    let run = || {
+        let options = IntOverlayOptions::keep_all_points();
+        Overlay::with_contours_custom(&subject, &clip, options, Solver::default()).overlay(rule, FillRule::NonZero)
+    };
+    let shapes = catch_unwind(AssertUnwindSafe(run)).map_err(|_| EngineFailed)?;
+    let grid = |ring: Vec<IntPoint<i32>>| ring.iter().map(|p| [i64::from(p.x), i64::from(p.y)]).collect();
+    Ok(shapes.into_iter().map(|s| s.into_iter().map(grid).collect()).collect())
+}
+
+/// Points where a ring goes straight on: facade breaks that must survive.
+pub fn straight_points(ring: &[GridPoint]) -> impl Iterator<Item = GridPoint> + '_ {
+    let n = ring.len();
+    (0..n).filter(move |&i| is_straight(ring[(i + n - 1) % n], ring[i], ring[(i + 1) % n])).map(move |i| ring[i])
+}
+
+fn is_straight(a: GridPoint, b: GridPoint, c: GridPoint) -> bool {
+    let (u, v) = ([b[0] - a[0], b[1] - a[1]], [c[0] - b[0], c[1] - b[1]]);
+    u[0] * v[1] == u[1] * v[0]
+}
+
+/// Removes straight points that were none in the input: cut points and joints that mean nothing any more. Then the
+/// ring starts at the corner that comes first in `order`.
+pub fn tidy(ring: &mut GridRing, breaks: &BTreeSet<GridPoint>, order: impl Fn(GridPoint) -> usize) {
+    let mut i = 0;
+    while i < ring.len() && ring.len() > 3 {
+        let n = ring.len();
+        let straight = is_straight(ring[(i + n - 1) % n], ring[i], ring[(i + 1) % n]);
+        if straight && !breaks.contains(&ring[i]) {
+            ring.remove(i);
+            i = i.saturating_sub(1);
+        } else {
+            i += 1;
+        }
+    }
+    let first = (0..ring.len()).min_by_key(|&i| (order(ring[i]), ring[i]));
+    ring.rotate_left(first.unwrap_or(0));
+}
