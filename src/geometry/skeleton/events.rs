@@ -54,17 +54,20 @@ struct Split {
 }
 
 /// The queue of events and what it remembers of every vertex.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct Events {
     heap: BinaryHeap<Event>,
     /// When the fragment that starts in a vertex vanishes.
     vanish: Vec<Option<Moment>>,
     splits: Vec<Split>,
     /// The present.
-    pub now: Option<Moment>,
-    /// Counts the different moments so far, from 1.
+    now: Moment,
+    /// Counts the different moments so far; [`FIRST_STEP`] at the start.
     pub step: u32,
 }
+
+/// The number of the moment τ = 0.
+pub(super) const FIRST_STEP: u32 = 1;
 
 /// Coefficients of D and T of a vertex with any third line, for the float test.
 struct Probe {
@@ -89,7 +92,8 @@ impl Probe {
 
 impl Events {
     pub fn with_capacity(edges: usize) -> Events {
-        Events { heap: BinaryHeap::with_capacity(2 * edges), ..Events::default() }
+        let heap = BinaryHeap::with_capacity(2 * edges);
+        Events { heap, vanish: Vec::new(), splits: Vec::new(), now: Moment::START, step: FIRST_STEP }
     }
 
     /// The earliest event that still holds, if it is not later than `stop`; the present moves on to it.
@@ -123,9 +127,9 @@ impl Events {
     }
 
     fn advance(&mut self, moment: Moment) {
-        if self.now.is_none_or(|now| now.compare(&moment) == Ordering::Less) {
+        if self.now.compare(&moment) == Ordering::Less {
             self.step += 1;
-            self.now = Some(moment);
+            self.now = moment;
         }
     }
 
@@ -202,7 +206,7 @@ impl Events {
         let probe = Probe::of(wf, v);
         let mut best = self.bound(wf, v);
         let mut found = NONE;
-        let now = self.now.map_or(0.0, |m| m.tau);
+        let now = self.now.tau;
         for &s in fragments {
             let latest = best.as_ref().map_or(f64::INFINITY, |m| m.tau);
             if !may_hit(wf, &probe, s, now, latest) {
@@ -243,11 +247,10 @@ impl Events {
             return None;
         }
         let moment = Moment::new(time_numerator(l, r, f), d);
-        let not_before = self.now.unwrap_or(Moment::START);
-        match moment.compare(&not_before) {
+        match moment.compare(&self.now) {
             Ordering::Less => return None,
             // Everything in the place where it was born has just been settled.
-            Ordering::Equal if vertex.born != 0 && vertex.born == self.step => return None,
+            Ordering::Equal if vertex.born == self.step => return None,
             _ => {}
         }
         match best.map(|best| moment.compare(best)) {

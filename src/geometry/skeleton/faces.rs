@@ -158,7 +158,10 @@ impl Chainer<'_> {
 }
 
 /// Nodes closer than this many grid steps are one.
-const WELD_STEPS: f64 = 8.0;
+pub(super) const WELD_STEPS: f64 = 8.0;
+
+/// In a unit of τ a line of weight 1 moves 2^32 grid steps.
+pub(super) const STEPS_PER_TAU: f64 = 4_294_967_296.0;
 
 /// For every node the node that stands for it: ends of short arcs are united, inner nodes with each other or with one
 /// input node, never two input nodes.
@@ -181,7 +184,7 @@ pub(super) fn weld_nodes(wf: &Wavefront) -> Vec<NodeId> {
     (0..parent.len() as NodeId).map(|n| root(&parent, n)).collect()
 }
 
-fn near(p: &GridNode, q: &GridNode) -> bool {
-    let (dx, dy, dt) = (p.x - q.x, p.y - q.y, (p.tau - q.tau) * 4_294_967_296.0);
+pub(super) fn near(p: &GridNode, q: &GridNode) -> bool {
+    let (dx, dy, dt) = (p.x - q.x, p.y - q.y, (p.tau - q.tau) * STEPS_PER_TAU);
     dx * dx + dy * dy + dt * dt < WELD_STEPS * WELD_STEPS
 }

@@ -204,8 +204,7 @@ fn end_of(wf: &mut Wavefront, v: VertexId, stop: Option<Moment>, last: f64) -> R
     if birth.tau == last {
         return Ok(vertex.birth);
     }
-    wf.nodes.push(GridNode { tau: last, ..birth });
-    Ok((wf.nodes.len() - 1) as NodeId)
+    Ok(wf.push_node(GridNode { tau: last, ..birth }))
 }
 
 /// Back to metres: keep the nodes in use, sort the faces by edge.

@@ -6,7 +6,8 @@
 use glam::DVec2;
 
 use super::SkeletonError;
-use super::faces::Union;
+use super::events::FIRST_STEP;
+use super::faces::{STEPS_PER_TAU, Union};
 use super::line::Line;
 use super::wavefront::Wavefront;
 use crate::geometry::grid::Grid;
@@ -55,17 +56,21 @@ pub(super) fn set_up(polygon: &Polygon, weights: Option<&[f64]>, options: &Optio
     }
     let grid = Grid::over(min, max).ok_or(SkeletonError::NotFinite)?;
     let mut wavefront = Wavefront::with_capacity(count);
-    // With all weights 0 nothing moves; any unit of time will do.
-    let unit = if fastest > 0.0 { fastest } else { 1.0 };
+    // With all weights 0 nothing moves; any unit of time will do. Bevels move faster than their edges.
+    let unit = if fastest > 0.0 { fastest * options.mitre_limit.unwrap_or(1.0) } else { 1.0 };
+    let weight = |edge: usize| weights.map_or(1.0, |w| w[edge]) / unit;
     let mut first = 0;
+    let mut rings = Vec::with_capacity(1 + polygon.holes.len());
     for (number, ring) in polygon.rings().enumerate() {
         check_direction(ring, number == 0)?;
-        let weight = |edge: usize| weights.map_or(1.0, |w| w[edge] / unit);
-        let sides = sides_of(&mut wavefront, &grid, ring, first, weight)?;
-        add_ring(&mut wavefront, &sides, options)?;
+        rings.push(sides_of(&mut wavefront, &grid, ring, first, weight)?);
         first += ring.len();
     }
-    Ok(Setup { grid, metres_per_tau: 4_294_967_296.0 * grid.step / unit, wavefront })
+    // Auxiliary lines come after those of all edges.
+    for sides in &rings {
+        add_ring(&mut wavefront, sides, options)?;
+    }
+    Ok(Setup { grid, metres_per_tau: STEPS_PER_TAU * grid.step / unit, wavefront })
 }
 
 /// The greatest weight.
@@ -152,8 +157,11 @@ fn add_corner(wf: &mut Wavefront, before: &Side, here: &Side, options: &Options)
     match auxiliary_line(before, here, cross, options) {
         Some(line) => {
             let between = wf.add_line(line);
-            wf.add_vertex(before.edge, between, here.start);
-            wf.add_vertex(between, here.edge, here.start);
+            // They leave the corner together; it is no event that they are there together.
+            for (l, r) in [(before.edge, between), (between, here.edge)] {
+                let v = wf.add_vertex(l, r, here.start);
+                wf.vertices[v as usize].born = FIRST_STEP;
+            }
         }
         None => {
             wf.add_vertex(before.edge, here.edge, here.start);
@@ -175,8 +183,11 @@ fn auxiliary_line(before: &Side, here: &Side, cross: i64, options: &Options) -> 
     }
     if options.square_ends && (before.weight == 0.0) != (here.weight == 0.0) {
         // Square to the edge that moves: from it back to the outline, or from the outline in to it.
-        let direction = if here.weight == 0.0 { [by, -bx] } else { [-hy, hx] };
-        return Some(Line::new(p, direction[0], direction[1], 0.0));
+        let (direction, standing) = if here.weight == 0.0 { ([by, -bx], here) } else { ([-hy, hx], before) };
+        let line = Line::new(p, direction[0], direction[1], 0.0);
+        // At a right angle the unmoved edge is that line already.
+        let [sx, sy] = standing.direction;
+        return (line != Line::new(p, sx, sy, 0.0)).then_some(line);
     }
     let limit = options.mitre_limit?;
     let (u, v) = (unit(before.direction), unit(here.direction));

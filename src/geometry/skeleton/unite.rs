@@ -4,11 +4,8 @@
 //! normal; the end of a cut becomes a corner of the face on its other side too.
 
 use super::SkeletonError;
-use super::faces::FaceLoops;
+use super::faces::{FaceLoops, STEPS_PER_TAU, WELD_STEPS, near};
 use super::wavefront::{GridNode, LineId, NodeId, Wavefront};
-
-/// Corners within this many grid steps of a cut are used as its end.
-const SNAP_STEPS: f64 = 8.0;
 
 /// Cut every shared face at its unions. `weld` maps nodes to those that stand for them; `tops` are the loops of the
 /// stopped wavefront, which get the new corners too.
@@ -28,8 +25,8 @@ pub(super) fn cut_united(
         let end = match stop {
             Stop::Corner(corner) => corner,
             Stop::Inside(new) => {
-                wf.nodes.push(new);
-                let id = (wf.nodes.len() - 1) as NodeId;
+                // The edges may meet at the very moment at which their face ends there: a cut of no length.
+                let id = if near(&new, &wf.nodes[node as usize]) { node } else { wf.push_node(new) };
                 let outer = &faces[face].outer;
                 let (u, v) = (outer[edge], outer[(edge + 1) % outer.len()]);
                 insert_between(faces, tops, u, v, id);
@@ -68,10 +65,12 @@ fn split_face(faces: &mut Vec<FaceLoops>, face: usize, p: NodeId, q: NodeId) -> 
     let outer = &mut faces[face].outer;
     let start = outer.iter().position(|&n| n == p).ok_or(SkeletonError::Unresolved)?;
     outer.rotate_left(start);
-    let end = outer.iter().position(|&n| n == q).ok_or(SkeletonError::Unresolved)?;
+    let end = 1 + outer.iter().skip(1).position(|&n| n == q).ok_or(SkeletonError::Unresolved)?;
     let mut second = outer.split_off(end);
-    outer.push(q);
-    second.push(p);
+    if p != q {
+        outer.push(q);
+        second.push(p);
+    }
     let root = faces[face].root;
     faces.push(FaceLoops { root, outer: second, holes: Vec::new() });
     Ok(())
@@ -126,9 +125,11 @@ impl Frame {
         self.ux * (p.x - q.x) + self.uy * (p.y - q.y)
     }
 
-    /// The lowest edge of the loop straight above corner `at`, and the point on it.
+    /// The lowest edge of the loop straight above corner `at`, and the point on it. Corners within [`WELD_STEPS`] of the
+    /// cut are used as its end.
     fn upper_edge(&self, wf: &Wavefront, ring: &[NodeId], at: usize) -> Option<(usize, Stop)> {
         let base = wf.nodes[ring[at] as usize];
+        let lowest = base.tau - WELD_STEPS / STEPS_PER_TAU;
         let mut best: Option<(f64, usize, Stop)> = None;
         for k in 0..ring.len() {
             let next = (k + 1) % ring.len();
@@ -138,12 +139,12 @@ impl Frame {
             let (p, q) = (wf.nodes[ring[k] as usize], wf.nodes[ring[next] as usize]);
             let (sp, sq) = (self.along(&p, &base), self.along(&q, &base));
             // An upper edge of a counter-clockwise face runs backwards.
-            if sp < -SNAP_STEPS || sq > SNAP_STEPS || sp <= sq {
+            if sp < -WELD_STEPS || sq > WELD_STEPS || sp <= sq {
                 continue;
             }
-            let (tau, stop) = if sp <= SNAP_STEPS {
+            let (tau, stop) = if sp <= WELD_STEPS {
                 (p.tau, Stop::Corner(ring[k]))
-            } else if sq >= -SNAP_STEPS {
+            } else if sq >= -WELD_STEPS {
                 (q.tau, Stop::Corner(ring[next]))
             } else {
                 let f = sp / (sp - sq);
@@ -151,7 +152,7 @@ impl Frame {
                 let node = GridNode { x: mix(p.x, q.x), y: mix(p.y, q.y), tau: mix(p.tau, q.tau) };
                 (node.tau, Stop::Inside(node))
             };
-            if tau > base.tau && best.as_ref().is_none_or(|b| tau < b.0) {
+            if tau >= lowest && best.as_ref().is_none_or(|b| tau < b.0) {
                 best = Some((tau, k, stop));
             }
         }

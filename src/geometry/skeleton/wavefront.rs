@@ -26,7 +26,7 @@ pub(super) struct Vertex {
     /// Sign of [l, r]: 1 convex, -1 reflex, 0 between opposite lines.
     pub turn: i32,
     pub alive: bool,
-    /// The step in which it was born in an inner node; 0 if in an input node.
+    /// The number of the moment at which it was born in an inner node; 0 if in an input node.
     pub born: u32,
     /// Where it stands in the list of active vertices.
     pub slot: u32,
@@ -96,7 +96,11 @@ impl Wavefront {
     }
 
     pub fn add_node(&mut self, place: &Place) -> NodeId {
-        self.nodes.push(GridNode { x: place.x, y: place.y, tau: place.moment.tau });
+        self.push_node(GridNode { x: place.x, y: place.y, tau: place.moment.tau })
+    }
+
+    pub fn push_node(&mut self, node: GridNode) -> NodeId {
+        self.nodes.push(node);
         (self.nodes.len() - 1) as NodeId
     }
 

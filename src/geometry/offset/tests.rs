@@ -1,0 +1,127 @@
+//! Closed forms of `cga-reference.md` §10.6 and of the offset cases in `hard-cases/stages.json`.
+
+use glam::DVec2;
+
+use super::{Offset, offset, reversed_edge, setback};
+use crate::geometry::polygon::{Polygon, signed_area};
+
+fn polygon(outer: &[(f64, f64)], holes: &[&[(f64, f64)]]) -> Polygon {
+    let ring = |r: &[(f64, f64)]| r.iter().map(|&(x, y)| DVec2::new(x, y)).collect();
+    Polygon { outer: ring(outer), holes: holes.iter().map(|h| ring(h)).collect() }
+}
+
+fn rectangle(w: f64, h: f64) -> Polygon {
+    polygon(&[(0.0, 0.0), (w, 0.0), (w, h), (0.0, h)], &[])
+}
+
+fn inside_area(o: &Offset) -> f64 {
+    o.inside.iter().map(Polygon::area).sum()
+}
+
+fn border_areas(o: &Offset) -> Vec<(usize, f64)> {
+    let area = |b: &super::Border| signed_area(&b.ring) + b.holes.iter().map(|h| signed_area(h)).sum::<f64>();
+    o.borders.iter().map(|b| (b.edge, area(b))).collect()
+}
+
+#[track_caller]
+fn assert_areas(o: &Offset, inside: f64, borders: &[(usize, f64)]) {
+    assert!((inside_area(o) - inside).abs() < 1e-6, "inside {}", inside_area(o));
+    let found = border_areas(o);
+    assert_eq!(found.len(), borders.len(), "{found:?}");
+    for (f, b) in found.iter().zip(borders) {
+        assert!(f.0 == b.0 && (f.1 - b.1).abs() < 1e-6, "{found:?}");
+    }
+}
+
+#[test]
+fn offset_of_a_rectangle() {
+    let r = rectangle(10.0, 6.0);
+    assert_areas(&offset(&r, -1.0).unwrap(), 32.0, &[(0, 9.0), (1, 5.0), (2, 9.0), (3, 5.0)]);
+    assert_areas(&offset(&r, 1.0).unwrap(), 96.0, &[(0, 11.0), (1, 7.0), (2, 11.0), (3, 7.0)]);
+    let first = &offset(&r, 1.0).unwrap().borders[0].ring;
+    assert_eq!(first[..2], [DVec2::new(10.0, 0.0), DVec2::ZERO]);
+}
+
+#[test]
+fn from_the_inradius_on_nothing_is_left() {
+    let square = rectangle(10.0, 10.0);
+    let quarter = [(0, 25.0), (1, 25.0), (2, 25.0), (3, 25.0)];
+    assert_areas(&offset(&square, -5.0).unwrap(), 0.0, &quarter);
+    assert_areas(&offset(&square, -50.0).unwrap(), 0.0, &quarter);
+    assert!(offset(&square, -5.0).unwrap().inside.is_empty());
+    assert_areas(&offset(&square, 0.0).unwrap(), 100.0, &[]);
+}
+
+#[test]
+fn setback_of_a_rectangle() {
+    let r = rectangle(10.0, 6.0);
+    assert_areas(&setback(&r, &[2.0]).unwrap(), 40.0, &[(0, 20.0)]);
+    assert_areas(&setback(&r, &[2.0, 0.0, 1.0]).unwrap(), 30.0, &[(0, 20.0), (2, 10.0)]);
+    assert_areas(&setback(&r, &[2.0, 0.0, 0.0, 3.0]).unwrap(), 28.0, &[(0, 17.0), (3, 15.0)]);
+    let stages = rectangle(20.0, 10.0);
+    assert_areas(&setback(&stages, &[3.0, 0.0, 1.0, 0.0]).unwrap(), 120.0, &[(0, 60.0), (2, 20.0)]);
+}
+
+#[test]
+fn setback_ends_square_at_a_concave_corner() {
+    let l = polygon(&[(0.0, 0.0), (10.0, 0.0), (10.0, 5.0), (5.0, 5.0), (5.0, 10.0), (0.0, 10.0)], &[]);
+    let o = setback(&l, &[0.0, 0.0, 2.0, 0.0, 0.0, 0.0]).unwrap();
+    assert_areas(&o, 65.0, &[(2, 10.0)]);
+}
+
+#[test]
+fn collinear_edges_of_different_distance_part_square() {
+    let r = polygon(&[(0.0, 0.0), (4.0, 0.0), (10.0, 0.0), (10.0, 6.0), (0.0, 6.0)], &[]);
+    assert_areas(&setback(&r, &[1.0, 2.0]).unwrap(), 44.0, &[(0, 4.0), (1, 12.0)]);
+    assert_areas(&setback(&r, &[2.0, 1.0]).unwrap(), 46.0, &[(0, 8.0), (1, 6.0)]);
+    assert_areas(&setback(&r, &[0.0, 1.0]).unwrap(), 54.0, &[(1, 6.0)]);
+}
+
+#[test]
+fn setback_passes_a_hole_that_stands_still() {
+    let p = polygon(
+        &[(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0)],
+        &[&[(3.0, 5.0), (5.0, 5.0), (5.0, 3.0), (3.0, 3.0)]],
+    );
+    assert_areas(&setback(&p, &[2.0]).unwrap(), 76.0, &[(0, 20.0)]);
+    assert_areas(&setback(&p, &[4.0]).unwrap(), 58.0, &[(0, 38.0)]);
+    // Behind the hole, whose far edge is parallel, a strip as wide as the hole stays.
+    assert_areas(&setback(&p, &[6.0]).unwrap(), 42.0, &[(0, 54.0)]);
+}
+
+#[test]
+fn growing_closes_holes_and_pockets() {
+    let p = polygon(
+        &[(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0)],
+        &[&[(3.0, 7.0), (7.0, 7.0), (7.0, 3.0), (3.0, 3.0)]],
+    );
+    let o = offset(&p, 1.0).unwrap();
+    assert!((inside_area(&o) - (144.0 - 4.0)).abs() < 1e-6);
+    assert_eq!((o.inside.len(), o.inside[0].holes.len(), o.borders.len()), (1, 1, 8));
+    assert!(offset(&p, 2.5).unwrap().inside[0].holes.is_empty());
+    // A C whose mouth of 2 m closes before its room of 4 m is filled.
+    let c = polygon(
+        &[
+            (0.0, 0.0), (12.0, 0.0), (12.0, 5.0), (8.0, 5.0), (8.0, 4.0), (4.0, 4.0), (4.0, 8.0), (8.0, 8.0), (8.0, 7.0),
+            (12.0, 7.0), (12.0, 12.0), (0.0, 12.0),
+        ],
+        &[],
+    );
+    let o = offset(&c, 1.5).unwrap();
+    assert_eq!((o.inside.len(), o.inside[0].holes.len()), (1, 1));
+    assert!((inside_area(&o) - (225.0 - 1.0)).abs() < 1e-6, "{}", inside_area(&o));
+}
+
+#[test]
+fn sharp_corners_are_cut_at_the_mitre_limit() {
+    let needle = polygon(&[(0.0, 0.0), (100.0, 0.0), (100.0, 0.2)], &[]);
+    let o = offset(&needle, 1.0).unwrap();
+    let (low, high) = o.inside[0].bounds().unwrap();
+    assert!((low.x + super::MITRE_LIMIT).abs() < 1e-2 && high.x < 101.1, "{low} {high}");
+}
+
+#[test]
+fn reversed_edges() {
+    // Ring 0 1 2 3 reversed is 3 2 1 0: its edge 0 runs from 3 to 2, which is edge 2.
+    assert_eq!((0..4).map(|e| reversed_edge(e, 4)).collect::<Vec<_>>(), [2, 1, 0, 3]);
+}
