@@ -32,7 +32,9 @@ pub fn doubled_points(polygon: &Polygon) -> Vec<Corner> {
     let mut found = Vec::new();
     for (ring, points) in polygon.rings().enumerate() {
         let n = points.len();
-        found.extend((0..n).filter(|&i| n > 1 && points[i] == points[(i + n - 1) % n]).map(|index| Corner { ring, index }));
+        found.extend(
+            (0..n).filter(|&i| n > 1 && points[i] == points[(i + n - 1) % n]).map(|index| Corner { ring, index }),
+        );
     }
     found
 }
@@ -184,7 +186,10 @@ mod tests {
     /// A square of 20 with two square holes.
     fn sound() -> Polygon {
         let hole = |x: f64| ring(&[(x, 5.0), (x, 10.0), (x + 5.0, 10.0), (x + 5.0, 5.0)]);
-        Polygon { outer: ring(&[(0.0, 0.0), (20.0, 0.0), (20.0, 20.0), (0.0, 20.0)]), holes: vec![hole(2.0), hole(12.0)] }
+        Polygon {
+            outer: ring(&[(0.0, 0.0), (20.0, 0.0), (20.0, 20.0), (0.0, 20.0)]),
+            holes: vec![hole(2.0), hole(12.0)],
+        }
     }
 
     /// Number of findings of every check, in order.
@@ -206,7 +211,7 @@ mod tests {
 
     #[test]
     fn a_sound_polygon_has_no_defect() {
-        assert_eq!(non_finite_points(&sound()), []);
+        assert!(non_finite_points(&sound()).is_empty());
         assert_eq!(findings(&sound()), [0; 7]);
         assert!(is_strictly_valid(&sound()));
     }

@@ -37,7 +37,7 @@ pub fn overlay(subject: &[GridRing], clip: &[GridRing], rule: OverlayRule) -> Re
     let (subject, clip) = (engine(subject), engine(clip));
     let run = || {
         let options = IntOverlayOptions::keep_all_points();
-        Overlay::with_contours_custom(&subject, &clip, options, Solver::default()).overlay(rule, FillRule::NonZero)
+        Overlay::from_subj_and_clip_custom(&subject, &clip, options, Solver::default()).overlay(rule, FillRule::NonZero)
     };
     let shapes = catch_unwind(AssertUnwindSafe(run)).map_err(|_| EngineFailed)?;
     let grid = |ring: Vec<IntPoint<i32>>| ring.iter().map(|p| [i64::from(p.x), i64::from(p.y)]).collect();

@@ -121,7 +121,8 @@ pub fn point_on_surface(polygon: &Polygon) -> Option<DVec2> {
     heights.dedup();
     let mut bands: Vec<(f64, f64)> = heights.windows(2).map(|w| (w[1] - w[0], (w[0] + w[1]) / 2.0)).collect();
     bands.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.total_cmp(&b.1)));
-    let best_of = |&(thick, y): &(f64, f64)| widest_stretch(polygon, y).map(|(wide, x)| (wide.min(thick), DVec2::new(x, y)));
+    let best_of =
+        |&(thick, y): &(f64, f64)| widest_stretch(polygon, y).map(|(wide, x)| (wide.min(thick), DVec2::new(x, y)));
     let mut best: Option<(f64, DVec2)> = None;
     for band in &bands {
         if best.is_some_and(|(room, _)| room >= band.0) {

@@ -97,7 +97,7 @@ impl<'a> CutFace<'a> {
         outers.extend(link(chains, |c| positions[c.vertex as usize].dot(along)));
         outers.iter_mut().for_each(|l| start_with_first_edge(l));
         outers.retain(|l| l.len() >= 3);
-        outers.sort_by_key(first_edge);
+        outers.sort_by_key(|l| first_edge(l));
         self.nest(outers, holes, positions)
     }
 
@@ -208,7 +208,7 @@ fn link(chains: Vec<Vec<Corner>>, place: impl Fn(&Corner) -> f64) -> Vec<Vec<Cor
     loops
 }
 
-fn first_edge(ring: &Vec<Corner>) -> usize {
+fn first_edge(ring: &[Corner]) -> usize {
     ring.iter().filter_map(|c| c.edge).min().unwrap_or(usize::MAX)
 }
 
