@@ -107,42 +107,37 @@ pub enum Arg {
     ComputedWord(Expr),
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum UnaryOperator {
-    Not,
-    Plus,
-    Minus,
-    ElementNot,
-    ElementPlus,
-    ElementMinus,
+macro_rules! operators {
+    ($(#[$doc:meta])* $name:ident { $($variant:ident $text:literal)* }) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum $name { $($variant),* }
+
+        impl $name {
+            pub const ALL: &'static [$name] = &[$($name::$variant),*];
+
+            /// As written in a rule file.
+            pub fn text(self) -> &'static str {
+                match self { $($name::$variant => $text),* }
+            }
+        }
+    };
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum BinaryOperator {
-    Multiply,
-    Divide,
-    Remainder,
-    Add,
-    Subtract,
-    Less,
-    LessEqual,
-    Greater,
-    GreaterEqual,
-    Equal,
-    NotEqual,
-    And,
-    Or,
-    ElementMultiply,
-    ElementDivide,
-    ElementRemainder,
-    ElementAdd,
-    ElementSubtract,
-    ElementLess,
-    ElementLessEqual,
-    ElementGreater,
-    ElementGreaterEqual,
-    ElementEqual,
-    ElementNotEqual,
-    ElementAnd,
-    ElementOr,
+operators! {
+    /// Operators before an operand; `Element...` ones work on every element of an array.
+    UnaryOperator {
+        Not "!" Plus "+" Minus "-" ElementNot ".!" ElementPlus ".+" ElementMinus ".-"
+    }
+}
+
+operators! {
+    /// Operators between two operands; `Element...` ones pair the elements of arrays (reference 1.8).
+    BinaryOperator {
+        Multiply "*" Divide "/" Remainder "%" Add "+" Subtract "-"
+        Less "<" LessEqual "<=" Greater ">" GreaterEqual ">=" Equal "==" NotEqual "!=" And "&&" Or "||"
+        ElementMultiply ".*" ElementDivide "./" ElementRemainder ".%" ElementAdd ".+" ElementSubtract ".-"
+        ElementLess ".<" ElementLessEqual ".<=" ElementGreater ".>" ElementGreaterEqual ".>="
+        ElementEqual ".==" ElementNotEqual ".!=" ElementAnd ".&&" ElementOr ".||"
+    }
 }
