@@ -85,6 +85,22 @@ impl TagTest {
     }
 }
 
+/// Class names of the recipe language.
+pub const CLASSES: [(&str, FeatureClass); 7] = [
+    ("building", FeatureClass::Building),
+    ("building_part", FeatureClass::BuildingPart),
+    ("highway", FeatureClass::Highway),
+    ("landuse", FeatureClass::Landuse),
+    ("natural", FeatureClass::Natural),
+    ("leisure", FeatureClass::Leisure),
+    ("water", FeatureClass::Water),
+];
+
+/// The class of a name.
+pub fn class_named(name: &str) -> Option<FeatureClass> {
+    CLASSES.iter().find(|(known, _)| *known == name).map(|(_, class)| *class)
+}
+
 /// The tags whose value says what kind of its class a feature is.
 pub fn own_tags(class: FeatureClass) -> &'static [&'static str] {
     match class {

@@ -287,8 +287,8 @@ pub enum SetSpec {
     Change(usize),
     /// Touched by a change that is not `non_target`.
     Changed,
-    Or(Box<SetSpec>, Box<SetSpec>),
-    And(Box<SetSpec>, Box<SetSpec>),
+    Any(Vec<SetSpec>),
+    Every(Vec<SetSpec>),
     Not(Box<SetSpec>),
 }
 
