@@ -1,1 +1,97 @@
-//! wgpu renderer.
+//! Render: render plan + scene → frames. The only user of wgpu.
+//!
+//! Positions reach the GPU as f32 relative to the camera, subtracted in f64. Depth is reversed 32-bit float with the
+//! far plane at infinity (parallel projection: at the scene's far end). Images are drawn in tiles; colour is linear
+//! 16-bit float, averaged over k × k samples per pixel and encoded to sRGB last; object numbers are drawn at pixel
+//! centres into 32-bit integers. A surface is drawn iff its opacity (material times texel) is at least one half.
+
+mod device;
+mod draws;
+mod execute;
+mod mipmaps;
+mod passes;
+mod pipelines;
+mod pools;
+mod readback;
+mod tiles;
+mod upload;
+
+use crate::frame::Frame;
+use crate::plan::{Counts, ViewPlan};
+use crate::scene::Scene;
+
+pub use device::Adapter;
+
+/// Linear radiance where nothing is drawn: a dark, nearly neutral ground (sRGB 99, 102, 94).
+pub const BACKGROUND: [f64; 3] = [0.125, 0.133, 0.112];
+
+/// What can go wrong between the plan and the frame; none of it is the recipe's mistake.
+#[derive(Debug, thiserror::Error)]
+pub enum GpuError {
+    #[error(
+        "no Vulkan, Metal or DirectX 12 adapter was found ({0}); on Debian the package mesa-vulkan-drivers gives a \
+         software adapter"
+    )]
+    NoAdapter(String),
+    #[error("the adapter {adapter} gave no device: {reason}")]
+    NoDevice { adapter: String, reason: String },
+    #[error("the adapter {adapter} failed while {task}: {reason}")]
+    Failed { adapter: String, task: String, reason: String },
+    #[error("view {view}: {what} of {wanted} is more than the {limit} that adapter {adapter} allows")]
+    TooLarge { adapter: String, view: String, what: &'static str, wanted: u64, limit: u64 },
+    #[error("view {0} was planned for another scene, or no scene was uploaded")]
+    WrongScene(String),
+}
+
+/// A device with one scene on it. Pipelines and render targets are made when a plan first needs them, and kept.
+pub struct Renderer {
+    gpu: device::Gpu,
+    pipelines: pipelines::Pipelines,
+    targets: pools::TargetPool,
+    scene: Option<upload::GpuScene>,
+    readback: readback::Readback,
+    max_tile: u32,
+    passes: usize,
+}
+
+impl Renderer {
+    /// Opens the fastest adapter there is, a software one if there is no other.
+    pub fn new() -> Result<Self, GpuError> {
+        let gpu = device::Gpu::open()?;
+        let pipelines = pipelines::Pipelines::new(&gpu);
+        let (targets, readback) = (pools::TargetPool::default(), readback::Readback::default());
+        let max_tile = tiles::TILE_SAMPLES;
+        Ok(Renderer { gpu, pipelines, targets, scene: None, readback, max_tile, passes: 0 })
+    }
+
+    /// Name and driver, for the manifest.
+    pub fn adapter(&self) -> &Adapter {
+        &self.gpu.adapter
+    }
+
+    /// Limits tiles to `samples` per side (1024 to 4096 are sensible): less memory, more passes over the geometry.
+    pub fn set_tile(&mut self, samples: u32) {
+        self.max_tile = samples.max(16);
+        self.targets = pools::TargetPool::default();
+    }
+
+    /// Puts a scene on the device, in place of any other. Objects of both states are there once.
+    pub fn upload(&mut self, scene: &Scene) -> Result<(), GpuError> {
+        let uploaded = self.gpu.checked("uploading the scene", || upload::GpuScene::new(&self.gpu, scene))?;
+        self.scene = Some(uploaded);
+        Ok(())
+    }
+
+    /// Runs the plan of one view over the uploaded scene.
+    pub fn render(&mut self, view: &ViewPlan) -> Result<Frame, GpuError> {
+        execute::render(self, view)
+    }
+
+    /// What has been made so far: passes run (tiles of a pass count once), render targets and pipelines created.
+    pub fn created(&self) -> Counts {
+        Counts { passes: self.passes, textures: self.targets.created(), pipelines: self.pipelines.created() }
+    }
+}
+
+#[cfg(test)]
+mod tests;

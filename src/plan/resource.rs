@@ -36,16 +36,17 @@ impl Format {
     }
 }
 
-/// A texture to allocate. Equal keys of different views share one; `number` tells apart those that live at once.
+/// A texture to allocate. Equal keys share one: no two of them are in use at once.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct TextureKey {
     pub format: Format,
-    /// Texels of the whole image (the renderer allocates tiles of it), without supersampling.
+    /// Texels of the whole image, without supersampling.
     pub width: u32,
     pub height: u32,
     /// Samples per pixel side.
     pub supersample: u32,
-    pub number: u32,
+    /// The renderer may allocate a tile of it and go over the image; a shadow map is there as a whole.
+    pub tiled: bool,
 }
 
 /// One version of the contents of a texture.

@@ -107,7 +107,7 @@ impl<'a> ViewScheduler<'a> {
         {
             return Some((light, *id));
         }
-        let id = self.resource("shadow_map", Format::Depth32, (size, size), 1, 1);
+        let id = self.resource("shadow_map", Format::Depth32, (size, size), 1, false);
         let pipelines = self.cutouts(&look.draw, |cutout| PipelineKey::ShadowMap { cutout });
         let kind = PassKind::ShadowMap { draw: look.draw.clone(), light };
         let pass = Pass { kind, reads: vec![], writes: vec![id], pipelines };
@@ -118,9 +118,9 @@ impl<'a> ViewScheduler<'a> {
 
     fn shade(&mut self, look: Look, shadow: Option<(LightFrame, ResourceId)>, outputs: &[usize]) {
         let supersample = self.view.quality.supersample.max(1);
-        let radiance = self.resource("shade", Format::Radiance16, self.size(), supersample, 0);
-        let depth = self.resource("shade.depth", Format::Depth32, self.size(), supersample, 0);
-        let color = self.resource("resolve", Format::Srgb8, self.size(), 1, 0);
+        let radiance = self.resource("shade", Format::Radiance16, self.size(), supersample, true);
+        let depth = self.resource("shade.depth", Format::Depth32, self.size(), supersample, true);
+        let color = self.resource("resolve", Format::Srgb8, self.size(), 1, true);
         let filter = match (shadow, self.sun()) {
             (Some((frame, _)), Some(sun)) => self.filter(look.shadows, &frame, &sun),
             _ => ShadowFilter::Unshadowed,
@@ -161,8 +161,8 @@ impl<'a> ViewScheduler<'a> {
     }
 
     fn ids(&mut self, draw: DrawSet, outputs: &[usize]) {
-        let ids = self.resource("ids", Format::Id32, self.size(), 1, 0);
-        let depth = self.resource("ids.depth", Format::Depth32, self.size(), 1, 0);
+        let ids = self.resource("ids", Format::Id32, self.size(), 1, true);
+        let depth = self.resource("ids.depth", Format::Depth32, self.size(), 1, true);
         let pipelines = self.cutouts(&draw, |cutout| PipelineKey::Ids { cutout });
         let pass = Pass { kind: PassKind::Ids { draw }, reads: vec![], writes: vec![ids, depth], pipelines };
         let products = outputs
@@ -177,7 +177,7 @@ impl<'a> ViewScheduler<'a> {
 
     fn depth(&mut self, draw: DrawSet, outputs: &[usize]) {
         self.skip("ids", "only depth is asked for of this selection");
-        let depth = self.resource("depth", Format::Depth32, self.size(), 1, 0);
+        let depth = self.resource("depth", Format::Depth32, self.size(), 1, true);
         let pipelines = self.cutouts(&draw, |cutout| PipelineKey::Depth { cutout });
         let pass = Pass { kind: PassKind::Depth { draw }, reads: vec![], writes: vec![depth], pipelines };
         let products = outputs.iter().map(|&i| self.product(i, depth, Encoding::Distance)).collect();
@@ -245,13 +245,13 @@ impl<'a> ViewScheduler<'a> {
         Product { index, pass: demand.pass.clone(), output: demand.output, source, encoding }
     }
 
-    /// A new resource. Stages share their textures, since none outlives its stage, except shadow maps, which live in
-    /// `number` 1: the map of the next look replaces it once no shading reads it any more.
-    fn resource(&mut self, stem: &str, format: Format, size: (u32, u32), supersample: u32, number: u32) -> ResourceId {
+    /// A new resource. Equal ones share a texture: a tiled one does not outlive its stage, and a shadow map is read
+    /// only until the next one is drawn.
+    fn resource(&mut self, stem: &str, format: Format, size: (u32, u32), supersample: u32, tiled: bool) -> ResourceId {
         let made = self.made.entry(format).or_insert(0);
         let name = format!("{stem}#{made}");
         *made += 1;
-        let texture = TextureKey { format, width: size.0, height: size.1, supersample, number };
+        let texture = TextureKey { format, width: size.0, height: size.1, supersample, tiled };
         self.plan.resources.push(Resource { name, texture });
         ResourceId(self.plan.resources.len() - 1)
     }

@@ -1,0 +1,209 @@
+//! Execute: the stages of a view's plan, tile by tile.
+
+use std::collections::BTreeMap;
+
+use super::device::Gpu;
+use super::draws::{self, DrawList};
+use super::passes::{Drawing, depth, ids, resolve, shade, shadow_map};
+use super::pipelines::Pipelines;
+use super::pools::{Target, TargetPool};
+use super::readback::{Readback, blank};
+use super::tiles::{self, Tile, ViewUniform, light_planes, light_view, tile_planes, tile_size, tile_view};
+use super::upload::GpuScene;
+use super::{GpuError, Renderer};
+use crate::frame::{Frame, Image, Pixels};
+use crate::plan::ViewPlan;
+use crate::plan::pass::{DrawSet, Pass, PassKind, PipelineKey, ShadowFilter, Stage, Surface};
+use crate::plan::resource::ResourceId;
+
+pub fn render(renderer: &mut Renderer, view: &ViewPlan) -> Result<Frame, GpuError> {
+    let Renderer { gpu, pipelines, targets, scene, readback, max_tile, passes } = renderer;
+    let scene = scene.as_mut().filter(|scene| fits(scene, view)).ok_or_else(|| GpuError::WrongScene(view.name.clone()))?;
+    check_sizes(gpu, view)?;
+    targets.keep(view.resources.iter().map(|r| r.texture));
+    let max_tile = (*max_tile).min(gpu.max_texture);
+    let task = format!("rendering view {}", view.name);
+    let images = gpu.checked(&task, || {
+        let mut execution = Execution { gpu, pipelines, targets, scene, readback, view, max_tile };
+        execution.run()
+    })??;
+    *passes += view.passes().count();
+    Ok(Frame { view: view.name.clone(), width: view.camera.width, height: view.camera.height, images })
+}
+
+/// Whether the plan speaks of as many objects as the scene has.
+fn fits(scene: &GpuScene, view: &ViewPlan) -> bool {
+    view.passes().filter_map(|p| p.kind.draw()).all(|draw| draw.objects.len() == scene.bounds.len())
+}
+
+fn check_sizes(gpu: &Gpu, view: &ViewPlan) -> Result<(), GpuError> {
+    let too_large = |what, wanted: u32| {
+        let (adapter, view) = (gpu.adapter.name.clone(), view.name.clone());
+        GpuError::TooLarge { adapter, view, what, wanted: wanted.into(), limit: gpu.max_texture.into() }
+    };
+    for pass in view.passes() {
+        match &pass.kind {
+            PassKind::ShadowMap { light, .. } if light.size > gpu.max_texture => {
+                return Err(too_large("a shadow map", light.size));
+            }
+            PassKind::Resolve { supersample } if *supersample > 64 => {
+                return Err(too_large("a number of samples per pixel side", *supersample));
+            }
+            _ => {}
+        }
+    }
+    Ok(())
+}
+
+struct Execution<'a> {
+    gpu: &'a Gpu,
+    pipelines: &'a mut Pipelines,
+    targets: &'a mut TargetPool,
+    scene: &'a mut GpuScene,
+    readback: &'a mut Readback,
+    view: &'a ViewPlan,
+    max_tile: u32,
+}
+
+impl Execution<'_> {
+    fn run(&mut self) -> Result<Vec<Image>, GpuError> {
+        let products = || self.view.stages.iter().flat_map(|stage| &stage.products);
+        let count = products().map(|p| p.index + 1).max().unwrap_or(0);
+        let mut images: Vec<Option<Pixels>> = vec![None; count];
+        for product in products() {
+            images[product.index] = Some(blank(self.view, &product.encoding));
+        }
+        let names: BTreeMap<usize, &str> = products().map(|p| (p.index, p.pass.as_str())).collect();
+
+        self.scene.place(self.gpu, self.view.camera.position);
+        for stage in &self.view.stages {
+            for pass in &stage.passes {
+                self.pipelines.prepare(self.gpu, &pass.pipelines);
+                self.load_textures(pass);
+            }
+            self.stage(stage, &mut images)?;
+        }
+        let image = |(pixels, name): (Option<Pixels>, &str)| {
+            pixels.map(|pixels| Image { pass: name.to_owned(), pixels })
+        };
+        Ok(images.into_iter().zip(names.into_values()).filter_map(image).collect())
+    }
+
+    /// Textures that a pass samples: all for shading, those with holes for the others.
+    fn load_textures(&mut self, pass: &Pass) {
+        let Some(draw) = pass.kind.draw() else { return };
+        let shading = matches!(pass.kind, PassKind::Shade { .. });
+        let sampled = |surface| surface == Surface::Cutout || (shading && surface == Surface::Textured);
+        let mut wanted: Vec<usize> = self
+            .scene
+            .chunks
+            .iter()
+            .filter(|chunk| draw.objects[chunk.object] && sampled(chunk.surface))
+            .filter_map(|chunk| chunk.texture)
+            .collect();
+        wanted.sort_unstable();
+        wanted.dedup();
+        let layouts = &self.pipelines.layouts;
+        self.scene.load_textures(self.gpu, &layouts.texture, &layouts.texture_sampler, wanted.into_iter());
+    }
+
+    fn stage(&mut self, stage: &Stage, images: &mut [Option<Pixels>]) -> Result<(), GpuError> {
+        let written = stage.passes.iter().flat_map(|pass| &pass.writes);
+        let supersample = written.map(|id| self.view.resources[id.0].texture.supersample).max().unwrap_or(1);
+        let image = (self.view.camera.width, self.view.camera.height);
+        let size = [image.0, image.1].map(|side| tile_size(side.max(1), supersample, self.max_tile));
+        let all = Tile { x: 0, y: 0, width: image.0, height: image.1 };
+        let tiles = if stage.tiled { tiles::tiles(image, (size[0], size[1])) } else { vec![all] };
+        for tile in tiles {
+            let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
+            let targets = self.stage_targets(stage, (size[0], size[1]));
+            for pass in &stage.passes {
+                self.pass(&mut encoder, pass, tile, &targets);
+            }
+            self.readback.collect(self.gpu, encoder, self.view, tile, &stage.products, &targets, images)?;
+        }
+        Ok(())
+    }
+
+    /// Targets that the stage may touch: what its passes declare to read or write.
+    fn stage_targets(&mut self, stage: &Stage, tile: (u32, u32)) -> BTreeMap<ResourceId, Target> {
+        let declared = stage.passes.iter().flat_map(|pass| pass.reads.iter().chain(&pass.writes));
+        declared
+            .map(|&id| {
+                let key = self.view.resources[id.0].texture;
+                let size = if key.tiled { tile } else { (key.width, key.height) };
+                (id, self.targets.get(self.gpu, key, (size.0 * key.supersample, size.1 * key.supersample)))
+            })
+            .collect()
+    }
+
+    fn pass(
+        &mut self,
+        encoder: &mut wgpu::CommandEncoder,
+        pass: &Pass,
+        tile: Tile,
+        targets: &BTreeMap<ResourceId, Target>,
+    ) {
+        let camera = &self.view.camera;
+        let target = |i: usize| &targets[&pass.writes[i]];
+        let sampled = (target(0), self.view.resources[pass.writes[0].0].texture.supersample);
+        match &pass.kind {
+            PassKind::ShadowMap { draw, light } => {
+                let planes = light_planes(light, camera.position);
+                let list = draws::gather(self.scene, &draw.objects, camera.position, &planes, false);
+                let uniform = light_view(light, camera.position);
+                self.draw(&list, &uniform, target(0).size, |drawing| shadow_map::encode(encoder, drawing, target(0)));
+            }
+            PassKind::Shade { draw, sun, ambient, light } => {
+                let uniform = shade::light_uniform(camera.position, sun.as_ref(), *ambient, light.as_ref());
+                let shadow_map = pass.reads.first().map(|id| &targets[id]);
+                let layouts = &self.pipelines.layouts;
+                let groups = shade::groups(self.gpu, layouts, &uniform, &self.scene.materials, shadow_map);
+                let filter = shadow_filter(pass);
+                self.draw_tile(draw, tile, sampled, |drawing| {
+                    shade::encode(encoder, drawing, &groups, filter, (target(0), target(1)));
+                });
+            }
+            PassKind::Resolve { supersample } => {
+                let radiance = &targets[&pass.reads[0]];
+                let (gpu, pipelines) = (self.gpu, &*self.pipelines);
+                let area = (tile.width, tile.height);
+                resolve::encode(encoder, gpu, pipelines, *supersample, (radiance, target(0)), area);
+            }
+            PassKind::Ids { draw } => {
+                self.draw_tile(draw, tile, sampled, |drawing| ids::encode(encoder, drawing, target(0), target(1)));
+            }
+            PassKind::Depth { draw } => {
+                self.draw_tile(draw, tile, sampled, |drawing| depth::encode(encoder, drawing, target(0)));
+            }
+        }
+    }
+
+    /// Draws what a tile shows of a selection.
+    fn draw_tile(&self, draw: &DrawSet, tile: Tile, (target, supersample): (&Target, u32), encode: impl FnOnce(&Drawing)) {
+        let camera = &self.view.camera;
+        let planes = tile_planes(camera, tile);
+        let list = draws::gather(self.scene, &draw.objects, camera.position, &planes, true);
+        let uniform = tile_view(camera, self.view.far, tile, target.size, supersample);
+        self.draw(&list, &uniform, (tile.width * supersample, tile.height * supersample), encode);
+    }
+
+    fn draw(&self, list: &DrawList, uniform: &ViewUniform, area: (u32, u32), encode: impl FnOnce(&Drawing)) {
+        let buffer = self.gpu.uniform("view", uniform);
+        let entries = [wgpu::BindGroupEntry { binding: 0, resource: buffer.as_entire_binding() }];
+        let layout = &self.pipelines.layouts.view;
+        let descriptor = wgpu::BindGroupDescriptor { label: Some("view"), layout, entries: &entries };
+        let view = &self.gpu.device.create_bind_group(&descriptor);
+        let indices = &self.gpu.buffer("indices", bytemuck::cast_slice(&list.indices), wgpu::BufferUsages::INDEX);
+        encode(&Drawing { pipelines: self.pipelines, scene: self.scene, list, indices, view, area });
+    }
+}
+
+/// The filter of the pipelines that a shading declares.
+fn shadow_filter(pass: &Pass) -> ShadowFilter {
+    let filter = |key: &PipelineKey| match key {
+        PipelineKey::Shade { shadow, .. } => Some(*shadow),
+        _ => None,
+    };
+    pass.pipelines.iter().find_map(filter).unwrap_or(ShadowFilter::Unshadowed)
+}

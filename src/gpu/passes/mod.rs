@@ -1,0 +1,78 @@
+//! Passes: one file each, with the pipelines it compiles and the commands it records.
+
+pub mod depth;
+pub mod ids;
+pub mod resolve;
+pub mod shade;
+pub mod shadow_map;
+
+use super::draws::DrawList;
+use super::pipelines::Pipelines;
+use super::pools::Target;
+use super::upload::GpuScene;
+use crate::plan::pass::{PipelineKey, Surface};
+
+/// What a pass that draws the scene needs besides its targets.
+pub struct Drawing<'a> {
+    pub pipelines: &'a Pipelines,
+    pub scene: &'a GpuScene,
+    pub list: &'a DrawList,
+    pub indices: &'a wgpu::Buffer,
+    pub view: &'a wgpu::BindGroup,
+    /// Samples that are drawn, from the upper left corner of the targets.
+    pub area: (u32, u32),
+}
+
+impl Drawing<'_> {
+    /// Records all runs with the pipeline that `key` names for their surface. `groups` are bound from index 2 on.
+    fn record(
+        &self,
+        pass: &mut wgpu::RenderPass,
+        groups: &[&wgpu::BindGroup],
+        key: impl Fn(Surface) -> PipelineKey,
+    ) {
+        pass.set_scissor_rect(0, 0, self.area.0, self.area.1);
+        pass.set_bind_group(0, self.view, &[]);
+        for (i, group) in groups.iter().enumerate() {
+            pass.set_bind_group(2 + i as u32, *group, &[]);
+        }
+        pass.set_vertex_buffer(0, self.scene.positions.slice(..));
+        pass.set_vertex_buffer(1, self.scene.attributes.slice(..));
+        pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
+        for run in &self.list.runs {
+            pass.set_pipeline(self.pipelines.get(key(run.surface)));
+            if let Some(texture) = run.texture {
+                pass.set_bind_group(1, self.scene.texture_group(texture), &[]);
+            }
+            pass.draw_indexed(run.indices.clone(), 0, 0..1);
+        }
+    }
+}
+
+/// Begins a pass that clears its targets.
+fn begin<'e>(
+    encoder: &'e mut wgpu::CommandEncoder,
+    label: &str,
+    color: Option<(&Target, wgpu::Color)>,
+    depth: Option<&Target>,
+) -> wgpu::RenderPass<'e> {
+    let color = color.map(|(target, value)| wgpu::RenderPassColorAttachment {
+        view: &target.view,
+        depth_slice: None,
+        resolve_target: None,
+        ops: wgpu::Operations { load: wgpu::LoadOp::Clear(value), store: wgpu::StoreOp::Store },
+    });
+    let depth_ops = wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Store };
+    encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        label: Some(label),
+        color_attachments: if color.is_some() { std::slice::from_ref(&color) } else { &[] },
+        depth_stencil_attachment: depth.map(|target| wgpu::RenderPassDepthStencilAttachment {
+            view: &target.view,
+            depth_ops: Some(depth_ops),
+            stencil_ops: None,
+        }),
+        timestamp_writes: None,
+        occlusion_query_set: None,
+        multiview_mask: None,
+    })
+}

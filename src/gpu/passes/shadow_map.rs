@@ -1,0 +1,26 @@
+//! Shadow map: depth from the sun, 1 nearest.
+
+use super::{Drawing, begin};
+use crate::gpu::device::Gpu;
+use crate::gpu::pipelines::{GeometryPipeline, Layouts};
+use crate::gpu::pools::Target;
+use crate::plan::pass::{PipelineKey, Surface};
+
+pub fn pipeline(gpu: &Gpu, layouts: &Layouts, module: &wgpu::ShaderModule, cutout: bool) -> wgpu::RenderPipeline {
+    let groups = [Some(&layouts.view), Some(&layouts.texture)];
+    GeometryPipeline {
+        label: PipelineKey::ShadowMap { cutout }.name(),
+        module,
+        vertex: if cutout { "vs_shadow_map_cutout" } else { "vs_shadow_map" },
+        fragment: cutout.then_some(("fs_shadow_map_cutout", None)),
+        attributes: cutout,
+        groups: if cutout { &groups } else { &groups[..1] },
+        constants: &[],
+    }
+    .create(gpu)
+}
+
+pub fn encode(encoder: &mut wgpu::CommandEncoder, drawing: &Drawing, depth: &Target) {
+    let mut pass = begin(encoder, "shadow_map", None, Some(depth));
+    drawing.record(&mut pass, &[], |surface| PipelineKey::ShadowMap { cutout: surface == Surface::Cutout });
+}

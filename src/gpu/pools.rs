@@ -1,0 +1,69 @@
+//! Pools: render targets by the keys of the plan, made when first needed and kept for later views.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::device::Gpu;
+use crate::plan::resource::{Format, TextureKey};
+
+/// A render target and its size in samples.
+#[derive(Clone, Debug)]
+pub struct Target {
+    pub texture: wgpu::Texture,
+    pub view: wgpu::TextureView,
+    pub size: (u32, u32),
+}
+
+#[derive(Default)]
+pub struct TargetPool {
+    targets: BTreeMap<TextureKey, Target>,
+    made: BTreeSet<TextureKey>,
+}
+
+impl TargetPool {
+    /// The target for `key`, of `size` samples: a tile of the planned texture.
+    pub fn get(&mut self, gpu: &Gpu, key: TextureKey, size: (u32, u32)) -> Target {
+        self.made.insert(key);
+        self.targets.entry(key).or_insert_with(|| create(gpu, key.format, size)).clone()
+    }
+
+    /// Frees the targets that a view does not name.
+    pub fn keep(&mut self, keys: impl Iterator<Item = TextureKey>) {
+        let keys: BTreeSet<TextureKey> = keys.collect();
+        self.targets.retain(|key, _| keys.contains(key));
+    }
+
+    /// How many different targets were ever made.
+    pub fn created(&self) -> usize {
+        self.made.len()
+    }
+}
+
+fn create(gpu: &Gpu, format: Format, size: (u32, u32)) -> Target {
+    use wgpu::TextureUsages as Usage;
+    let usage = match format {
+        Format::Depth32 => Usage::RENDER_ATTACHMENT | Usage::TEXTURE_BINDING | Usage::COPY_SRC,
+        Format::Radiance16 => Usage::RENDER_ATTACHMENT | Usage::TEXTURE_BINDING,
+        Format::Srgb8 | Format::Id32 => Usage::RENDER_ATTACHMENT | Usage::COPY_SRC,
+    };
+    let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: Some(format.name()),
+        size: wgpu::Extent3d { width: size.0, height: size.1, depth_or_array_layers: 1 },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: texture_format(format),
+        usage,
+        view_formats: &[],
+    });
+    let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
+    Target { texture, view, size }
+}
+
+pub fn texture_format(format: Format) -> wgpu::TextureFormat {
+    match format {
+        Format::Depth32 => wgpu::TextureFormat::Depth32Float,
+        Format::Radiance16 => wgpu::TextureFormat::Rgba16Float,
+        Format::Srgb8 => wgpu::TextureFormat::Rgba8UnormSrgb,
+        Format::Id32 => wgpu::TextureFormat::R32Uint,
+    }
+}

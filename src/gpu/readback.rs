@@ -1,0 +1,144 @@
+//! Read-back: tiles of render targets → pixels of the frame's images.
+
+use std::collections::BTreeMap;
+
+use super::GpuError;
+use super::device::Gpu;
+use super::pools::Target;
+use super::tiles::Tile;
+use crate::frame::Pixels;
+use crate::plan::ViewPlan;
+use crate::plan::demand::Projection;
+use crate::plan::pass::{Encoding, Product};
+use crate::plan::resource::ResourceId;
+
+/// Bytes per texel of everything that is read back.
+const TEXEL: u32 = 4;
+
+/// A buffer that the CPU can read, grown as needed.
+#[derive(Default)]
+pub struct Readback {
+    buffer: Option<wgpu::Buffer>,
+}
+
+impl Readback {
+    fn reserve(&mut self, gpu: &Gpu, size: u64) -> &wgpu::Buffer {
+        if self.buffer.as_ref().is_none_or(|b| b.size() < size) {
+            self.buffer = Some(gpu.device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("readback"),
+                size,
+                usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+                mapped_at_creation: false,
+            }));
+        }
+        self.buffer.as_ref().expect("it was made above")
+    }
+
+    /// Submits `encoder` followed by copies of the targets' upper left corners, waits, and hands each product's rows
+    /// to its image.
+    pub fn collect(
+        &mut self,
+        gpu: &Gpu,
+        mut encoder: wgpu::CommandEncoder,
+        view: &ViewPlan,
+        tile: Tile,
+        products: &[Product],
+        targets: &BTreeMap<ResourceId, Target>,
+        images: &mut [Option<Pixels>],
+    ) -> Result<(), GpuError> {
+        let stride = (tile.width * TEXEL).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+        let size = u64::from(stride) * u64::from(tile.height);
+        let mut sources: Vec<ResourceId> = products.iter().map(|p| p.source).collect();
+        sources.sort();
+        sources.dedup();
+        let buffer = self.reserve(gpu, size * sources.len() as u64);
+        for (i, source) in sources.iter().enumerate() {
+            copy(&mut encoder, &targets[source], buffer, i as u64 * size, stride, tile);
+        }
+        gpu.queue.submit([encoder.finish()]);
+        if sources.is_empty() {
+            return Ok(());
+        }
+        let range = ..size * sources.len() as u64;
+        let (sender, receiver) = std::sync::mpsc::channel();
+        buffer.map_async(wgpu::MapMode::Read, range, move |result| drop(sender.send(result)));
+        let failed = |reason: &dyn std::fmt::Display| gpu.failed(&format!("rendering view {}", view.name), reason);
+        gpu.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|e| failed(&e))?;
+        receiver.recv().map_err(|e| failed(&e))?.map_err(|e| failed(&e))?;
+        let mapped = buffer.get_mapped_range(range).map_err(|e| failed(&e))?;
+        for product in products {
+            let place = sources.binary_search(&product.source).expect("every product's source is in the list");
+            let rows = mapped[place * size as usize..][..size as usize].chunks_exact(stride as usize);
+            let image = images[product.index].get_or_insert_with(|| blank(view, &product.encoding));
+            for (y, row) in rows.enumerate() {
+                let at = (tile.y as usize + y) * view.camera.width as usize + tile.x as usize;
+                write_row(view, &product.encoding, &row[..(tile.width * TEXEL) as usize], image, at);
+            }
+        }
+        drop(mapped);
+        buffer.unmap();
+        Ok(())
+    }
+}
+
+fn copy(
+    encoder: &mut wgpu::CommandEncoder,
+    target: &Target,
+    buffer: &wgpu::Buffer,
+    offset: u64,
+    stride: u32,
+    tile: Tile,
+) {
+    encoder.copy_texture_to_buffer(
+        target.texture.as_image_copy(),
+        wgpu::TexelCopyBufferInfo {
+            buffer,
+            layout: wgpu::TexelCopyBufferLayout { offset, bytes_per_row: Some(stride), rows_per_image: None },
+        },
+        wgpu::Extent3d { width: tile.width, height: tile.height, depth_or_array_layers: 1 },
+    );
+}
+
+/// An image of the view's size for pixels of this encoding.
+pub fn blank(view: &ViewPlan, encoding: &Encoding) -> Pixels {
+    let pixels = view.camera.width as usize * view.camera.height as usize;
+    match encoding {
+        Encoding::Color => Pixels::Rgb8(vec![0; pixels * 3]),
+        Encoding::Label(_) => Pixels::Gray8(vec![0; pixels]),
+        Encoding::Number(_) => Pixels::Id32(vec![0; pixels]),
+        Encoding::Distance => Pixels::Float32(vec![f32::INFINITY; pixels]),
+    }
+}
+
+/// Writes a row of texels to the pixels of `image` from `at` on.
+fn write_row(view: &ViewPlan, encoding: &Encoding, row: &[u8], image: &mut Pixels, at: usize) {
+    let texels = row.chunks_exact(TEXEL as usize).map(|t| [t[0], t[1], t[2], t[3]]);
+    match (encoding, image) {
+        (Encoding::Color, Pixels::Rgb8(pixels)) => {
+            let pixels = pixels[at * 3..].chunks_exact_mut(3);
+            pixels.zip(texels).for_each(|(p, t)| p.copy_from_slice(&t[..3]));
+        }
+        (Encoding::Label(table), Pixels::Gray8(pixels)) => {
+            pixels[at..].iter_mut().zip(texels).for_each(|(p, t)| *p = table[u32::from_le_bytes(t) as usize]);
+        }
+        (Encoding::Number(table), Pixels::Id32(pixels)) => {
+            pixels[at..].iter_mut().zip(texels).for_each(|(p, t)| *p = table[u32::from_le_bytes(t) as usize]);
+        }
+        (Encoding::Distance, Pixels::Float32(pixels)) => {
+            pixels[at..].iter_mut().zip(texels).for_each(|(p, t)| *p = distance(view, f32::from_le_bytes(t)));
+        }
+        _ => unreachable!("blank made the image for this encoding"),
+    }
+}
+
+/// Metres along the viewing direction from reverse depth.
+fn distance(view: &ViewPlan, depth: f32) -> f32 {
+    let (near, far) = (view.camera.near, view.far);
+    if depth <= 0.0 {
+        return f32::INFINITY;
+    }
+    match view.camera.projection {
+        Projection::Perspective { .. } => (near / f64::from(depth)) as f32,
+        Projection::Orthographic { .. } => (far - f64::from(depth) * (far - near)) as f32,
+    }
+}

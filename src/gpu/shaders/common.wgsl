@@ -1,0 +1,34 @@
+// View: where camera-relative metres land in the tile that is drawn.
+
+struct View {
+    // Rows of clip_from_camera.
+    clip_x: vec4<f32>,
+    clip_y: vec4<f32>,
+    clip_z: vec4<f32>,
+    clip_w: vec4<f32>,
+    // Viewing direction; w is 1 for parallel projection.
+    forward: vec4<f32>,
+    // Half size of the whole image, in samples.
+    image_half: vec2<f32>,
+    // Centre and half size of the tile from the image's centre, in samples, y up.
+    tile_center: vec2<f32>,
+    tile_half: vec2<f32>,
+    // Least clip w at which a vertex is surely in front of the camera.
+    front: f32,
+    unused: f32,
+};
+
+@group(0) @binding(0) var<uniform> view: View;
+
+// Clip position in the tile. Positions are first rounded to 1/256 sample in the whole image, which is the grid that
+// rasterisers use: the same triangle then covers the same samples whichever tile it is drawn in.
+fn to_tile(camera_position: vec3<f32>) -> vec4<f32> {
+    let p = vec4<f32>(camera_position, 1.0);
+    let clip = vec4<f32>(dot(view.clip_x, p), dot(view.clip_y, p), dot(view.clip_z, p), dot(view.clip_w, p));
+    if clip.w < view.front {
+        let xy = (clip.xy * view.image_half - view.tile_center * clip.w) / view.tile_half;
+        return vec4<f32>(xy, clip.zw);
+    }
+    let sample = round(clip.xy / clip.w * view.image_half * 256.0) / 256.0;
+    return vec4<f32>((sample - view.tile_center) / view.tile_half * clip.w, clip.zw);
+}

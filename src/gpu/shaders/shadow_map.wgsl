@@ -1,0 +1,23 @@
+// Shadow map: depth from the sun.
+
+struct Corner {
+    @builtin(position) position: vec4<f32>,
+    @location(0) uv: vec2<f32>,
+};
+
+@vertex
+fn vs_shadow_map(@location(0) position: vec3<f32>) -> @builtin(position) vec4<f32> {
+    return to_tile(position);
+}
+
+@vertex
+fn vs_shadow_map_cutout(@location(0) position: vec3<f32>, @location(2) uv: vec2<f32>) -> Corner {
+    return Corner(to_tile(position), uv);
+}
+
+@fragment
+fn fs_shadow_map_cutout(corner: Corner) {
+    if is_hole(textureSample(color_texture, color_sampler, corner.uv).a) {
+        discard;
+    }
+}

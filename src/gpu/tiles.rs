@@ -1,0 +1,171 @@
+//! Tiles: an image larger than a render target is drawn piece by piece; and the matrices that place the pieces.
+
+use glam::DVec3;
+
+use crate::plan::demand::{Camera, Projection};
+use crate::plan::light::{LightFrame, view_planes};
+
+/// Samples per side of the largest tile: 4096² samples of radiance and depth take 200 MB.
+pub const TILE_SAMPLES: u32 = 4096;
+
+/// A rectangle of pixels of the image.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Tile {
+    pub x: u32,
+    pub y: u32,
+    pub width: u32,
+    pub height: u32,
+}
+
+/// Pixels per side of a tile: as few equal tiles as keep within `limit` samples.
+pub fn tile_size(image: u32, supersample: u32, limit: u32) -> u32 {
+    let most = (limit / supersample).max(1);
+    image.div_ceil(image.div_ceil(most).max(1))
+}
+
+/// Tiles of `tile` pixels that cover the image, row by row.
+pub fn tiles(image: (u32, u32), tile: (u32, u32)) -> Vec<Tile> {
+    let starts = |image: u32, tile: u32| (0..image).step_by(tile as usize);
+    let row = |y: u32| {
+        starts(image.0, tile.0).map(move |x| Tile {
+            x,
+            y,
+            width: tile.0.min(image.0 - x),
+            height: tile.1.min(image.1 - y),
+        })
+    };
+    starts(image.1, tile.1).flat_map(row).collect()
+}
+
+/// `View` of `shaders/common.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct ViewUniform {
+    pub clip_from_camera: [[f32; 4]; 4],
+    pub forward: [f32; 4],
+    pub image_half: [f32; 2],
+    pub tile_center: [f32; 2],
+    pub tile_half: [f32; 2],
+    pub front: f32,
+    pub unused: f32,
+}
+
+fn row(axis: DVec3, constant: f64) -> [f32; 4] {
+    axis.extend(constant).as_vec4().to_array()
+}
+
+/// View of a tile. The render target holds `target` samples; the tile begins at its upper left corner.
+pub fn tile_view(camera: &Camera, far: f64, tile: Tile, target: (u32, u32), supersample: u32) -> ViewUniform {
+    let parallel = matches!(camera.projection, Projection::Orthographic { .. });
+    let clip_from_camera = match camera.projection {
+        Projection::Perspective { tan_x, tan_y } => [
+            row(camera.right / tan_x, 0.0),
+            row(camera.up / tan_y, 0.0),
+            row(DVec3::ZERO, camera.near),
+            row(camera.forward, 0.0),
+        ],
+        Projection::Orthographic { half_x, half_y } => [
+            row(camera.right / half_x, 0.0),
+            row(camera.up / half_y, 0.0),
+            row(-camera.forward / (far - camera.near), far / (far - camera.near)),
+            row(DVec3::ZERO, 1.0),
+        ],
+    };
+    let half = |samples: u32| f64::from(samples) / 2.0;
+    let image_half = [half(camera.width * supersample), half(camera.height * supersample)];
+    let tile_half = [half(target.0), half(target.1)];
+    let left = f64::from(tile.x * supersample) + tile_half[0] - image_half[0];
+    let down = f64::from(tile.y * supersample) + tile_half[1] - image_half[1];
+    ViewUniform {
+        clip_from_camera,
+        forward: row(camera.forward, if parallel { 1.0 } else { 0.0 }),
+        image_half: image_half.map(|v| v as f32),
+        tile_center: [left as f32, -down as f32],
+        tile_half: tile_half.map(|v| v as f32),
+        front: if parallel { 0.5 } else { (camera.near * 0.5) as f32 },
+        unused: 0.0,
+    }
+}
+
+/// View of a whole shadow map; row 0 of the map is the least `v`.
+pub fn light_view(light: &LightFrame, camera: DVec3) -> ViewUniform {
+    let [u, v, depth] = light_rows(light, camera);
+    let to_clip = |row: [f64; 4], scale: f64| {
+        let [x, y, z, w] = row.map(|c| c * 2.0 * scale / f64::from(light.size));
+        [x as f32, y as f32, z as f32, (w - scale) as f32]
+    };
+    let half = light.size as f32 / 2.0;
+    ViewUniform {
+        clip_from_camera: [to_clip(u, 1.0), to_clip(v, -1.0), depth.map(|c| c as f32), [0.0, 0.0, 0.0, 1.0]],
+        forward: row(-light.direction, 1.0),
+        image_half: [half; 2],
+        tile_center: [0.0; 2],
+        tile_half: [half; 2],
+        front: 0.5,
+        unused: 0.0,
+    }
+}
+
+/// Rows from camera-relative metres to texel column, texel row and depth of the map.
+pub fn light_rows(light: &LightFrame, camera: DVec3) -> [[f64; 4]; 3] {
+    let offset = camera - light.anchor;
+    let range = light.high - light.low;
+    let rows = [
+        (light.u / light.texel.x, offset.dot(light.u) / light.texel.x - light.corner.x),
+        (light.v / light.texel.y, offset.dot(light.v) / light.texel.y - light.corner.y),
+        (light.direction / range, (offset.dot(light.direction) - light.low) / range),
+    ];
+    rows.map(|(axis, constant)| [axis.x, axis.y, axis.z, constant])
+}
+
+/// Half spaces `n·p + d ≥ 0`, `p` from the camera, that hold all that a tile (grown by a pixel) shows.
+pub fn tile_planes(camera: &Camera, tile: Tile) -> Vec<(DVec3, f64)> {
+    let [x0, x1] = [f64::from(tile.x) - 1.0, f64::from(tile.x + tile.width) + 1.0]
+        .map(|x| 2.0 * x / f64::from(camera.width) - 1.0);
+    let [y1, y0] = [f64::from(tile.y) - 1.0, f64::from(tile.y + tile.height) + 1.0]
+        .map(|y| 1.0 - 2.0 * y / f64::from(camera.height));
+    let near = view_planes(camera)[0];
+    let (right, up, forward) = (camera.right, camera.up, camera.forward);
+    match camera.projection {
+        Projection::Perspective { tan_x, tan_y } => vec![
+            near,
+            (right - forward * (x0 * tan_x), 0.0),
+            (forward * (x1 * tan_x) - right, 0.0),
+            (up - forward * (y0 * tan_y), 0.0),
+            (forward * (y1 * tan_y) - up, 0.0),
+        ],
+        Projection::Orthographic { half_x, half_y } => vec![
+            near,
+            (right, -x0 * half_x),
+            (-right, x1 * half_x),
+            (up, -y0 * half_y),
+            (-up, y1 * half_y),
+        ],
+    }
+}
+
+/// The same of a shadow map: its four sides.
+pub fn light_planes(light: &LightFrame, camera: DVec3) -> Vec<(DVec3, f64)> {
+    let [u, v, _] = light_rows(light, camera);
+    let size = f64::from(light.size);
+    let side = |r: [f64; 4]| {
+        let axis = DVec3::new(r[0], r[1], r[2]);
+        [(axis, r[3]), (-axis, size - r[3])]
+    };
+    [side(u), side(v)].concat()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tiles_cover_each_pixel_once() {
+        for (image, limit, k) in [((100, 70), 64, 2), ((1, 1), 64, 4), ((64, 64), 64, 1), ((65, 3), 64, 1)] {
+            let size = (tile_size(image.0, k, limit), tile_size(image.1, k, limit));
+            assert!(size.0 * k <= limit && size.1 * k <= limit);
+            let area: u32 = tiles(image, size).iter().map(|t| t.width * t.height).sum();
+            assert_eq!(area, image.0 * image.1);
+        }
+    }
+}
