@@ -7,6 +7,8 @@ pub mod boolean;
 pub mod cut;
 pub mod extrude;
 pub mod grid;
+#[cfg(test)]
+mod hard_cases;
 pub mod mesh;
 pub mod mesh_checks;
 pub mod offset;

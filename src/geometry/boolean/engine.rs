@@ -3,14 +3,17 @@
 //!
 //! `i_overlay` with its 32-bit integers: exact on coordinates up to 2^30, ours stay below (numerics 4.5).
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
+use glam::DVec2;
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay::{IntOverlayOptions, Overlay};
 use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::core::solver::Solver;
 use i_overlay::i_float::int::point::IntPoint;
+
+use crate::geometry::polygon::signed_area;
 
 /// A point in grid steps.
 pub type GridPoint = [i64; 2];
@@ -44,8 +47,8 @@ pub fn overlay(subject: &[GridRing], clip: &[GridRing], rule: OverlayRule) -> Re
     Ok(shapes.into_iter().map(|s| s.into_iter().map(grid).collect()).collect())
 }
 
-/// Points where a ring goes straight on: facade breaks that must survive.
-pub fn straight_points(ring: &[GridPoint]) -> impl Iterator<Item = GridPoint> + '_ {
+/// Points where a ring goes straight on.
+fn straight_points(ring: &[GridPoint]) -> impl Iterator<Item = GridPoint> + '_ {
     let n = ring.len();
     (0..n).filter(move |&i| is_straight(ring[(i + n - 1) % n], ring[i], ring[(i + 1) % n])).map(move |i| ring[i])
 }
@@ -55,20 +58,60 @@ fn is_straight(a: GridPoint, b: GridPoint, c: GridPoint) -> bool {
     u[0] * v[1] == u[1] * v[0]
 }
 
-/// Removes straight points that were none in the input: cut points and joints that mean nothing any more. Then the
-/// ring starts at the corner that comes first in `order`.
-pub fn tidy(ring: &mut GridRing, breaks: &BTreeSet<GridPoint>, order: impl Fn(GridPoint) -> usize) {
-    let mut i = 0;
-    while i < ring.len() && ring.len() > 3 {
-        let n = ring.len();
-        let straight = is_straight(ring[(i + n - 1) % n], ring[i], ring[(i + 1) % n]);
-        if straight && !breaks.contains(&ring[i]) {
-            ring.remove(i);
-            i = i.saturating_sub(1);
-        } else {
-            i += 1;
+/// What must be remembered of the input to give the output its form back.
+#[derive(Default)]
+pub struct Keepsakes {
+    /// Straight points of the input rings: facade breaks.
+    pub breaks: BTreeSet<GridPoint>,
+    /// Place of every input point, in order.
+    pub order: BTreeMap<GridPoint, usize>,
+}
+
+impl Keepsakes {
+    pub fn add(&mut self, ring: &[GridPoint]) {
+        self.breaks.extend(straight_points(ring));
+        for &p in ring {
+            let next = self.order.len();
+            self.order.entry(p).or_insert(next);
         }
     }
-    let first = (0..ring.len()).min_by_key(|&i| (order(ring[i]), ring[i]));
-    ring.rotate_left(first.unwrap_or(0));
+
+    /// Drops rounding dust and straight points that the input did not have; then rings start at, and come in the
+    /// order of, their first input point.
+    pub fn tidy(&self, shapes: &mut Vec<GridShape>) {
+        shapes.retain(|s| !is_rounding_dust(&s[0]));
+        for shape in &mut *shapes {
+            shape.retain(|r| !is_rounding_dust(r));
+            shape.iter_mut().for_each(|r| self.tidy_ring(r));
+            shape[1..].sort_by_key(|r| self.place(r[0]));
+        }
+        shapes.sort_by_key(|s| self.place(s[0][0]));
+    }
+
+    fn place(&self, p: GridPoint) -> (usize, GridPoint) {
+        (self.order.get(&p).copied().unwrap_or(usize::MAX), p)
+    }
+
+    fn tidy_ring(&self, ring: &mut GridRing) {
+        let mut i = 0;
+        while i < ring.len() && ring.len() > 3 {
+            let n = ring.len();
+            let straight = is_straight(ring[(i + n - 1) % n], ring[i], ring[(i + 1) % n]);
+            if straight && !self.breaks.contains(&ring[i]) {
+                ring.remove(i);
+                i = i.saturating_sub(1);
+            } else {
+                i += 1;
+            }
+        }
+        let first = (0..ring.len()).min_by_key(|&i| self.place(ring[i]));
+        ring.rotate_left(first.unwrap_or(0));
+    }
+}
+
+/// Whether a ring is on the mean no wider than two grid steps: it may come from rounding alone.
+pub fn is_rounding_dust(ring: &GridRing) -> bool {
+    let points: Vec<DVec2> = ring.iter().map(|p| DVec2::new(p[0] as f64, p[1] as f64)).collect();
+    let girth: f64 = (0..points.len()).map(|i| points[i].distance(points[(i + 1) % points.len()])).sum();
+    signed_area(&points).abs() <= girth
 }

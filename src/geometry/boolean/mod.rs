@@ -2,11 +2,12 @@
 //!
 //! Ring directions do not matter, polygons of a set may overlap. Corners of the input keep their coordinates bit for
 //! bit, straight points of the input stay, new ones only appear where edges cross (to within the grid step,
-//! 2^-30 of the extent). Outlines start at their corner that comes first in the input.
+//! 2^-30 of the extent). Outlines start at their corner that comes first in the input. Slivers that may come from
+//! rounding alone, on the mean no wider than two grid steps, are dropped.
 
 pub(super) mod engine;
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 use glam::DVec2;
 use i_overlay::core::overlay_rule::OverlayRule;
@@ -14,7 +15,7 @@ use i_overlay::core::overlay_rule::OverlayRule;
 use super::Polygon;
 use super::grid::Grid;
 use super::polygon::signed_area;
-use engine::{GridPoint, GridRing, GridShape};
+use engine::{GridPoint, GridRing, GridShape, Keepsakes};
 
 /// The world's errors of the boolean engine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -61,32 +62,32 @@ fn combine(a: &[Polygon], b: &[Polygon], rule: OverlayRule) -> Result<Vec<Polygo
         return Err(BooleanError::TooLarge);
     }
     let Some(grid) = Grid::over(lo, hi) else { return Ok(Vec::new()) };
-    let mut index = InputIndex::default();
-    let mut on_grid = |set: &[Polygon]| -> Vec<GridRing> { set.iter().flat_map(|p| index.add(p, &grid)).collect() };
-    let (subject, clip) = (on_grid(a), on_grid(b));
+    let mut input = Input { grid, originals: BTreeMap::new(), keepsakes: Keepsakes::default() };
+    let subject: Vec<GridRing> = a.iter().flat_map(|p| input.add(p)).collect();
+    let clip: Vec<GridRing> = b.iter().flat_map(|p| input.add(p)).collect();
     let shapes = engine::overlay(&subject, &clip, rule).map_err(|_| BooleanError::EngineFailed)?;
-    Ok(index.polygons(shapes, &grid))
+    Ok(input.polygons(shapes))
 }
 
-/// What must be remembered of the input: exact positions, order and straight points.
-#[derive(Default)]
-struct InputIndex {
-    originals: BTreeMap<GridPoint, (usize, DVec2)>,
-    breaks: BTreeSet<GridPoint>,
+/// What must be remembered of the input.
+struct Input {
+    grid: Grid,
+    /// Positions before rounding.
+    originals: BTreeMap<GridPoint, DVec2>,
+    keepsakes: Keepsakes,
 }
 
-impl InputIndex {
+impl Input {
     /// The rings of a polygon on the grid, outline counter-clockwise, holes clockwise.
-    fn add(&mut self, polygon: &Polygon, grid: &Grid) -> Vec<GridRing> {
+    fn add(&mut self, polygon: &Polygon) -> Vec<GridRing> {
         let mut rings = Vec::new();
         for (i, source) in polygon.rings().enumerate() {
-            let mut ring: GridRing = source.iter().map(|&p| grid.snap(p)).collect();
+            let mut ring: GridRing = source.iter().map(|&p| self.grid.snap(p)).collect();
             for (&on_grid, &p) in ring.iter().zip(source) {
-                let order = self.originals.len();
-                self.originals.entry(on_grid).or_insert((order, p));
+                self.originals.entry(on_grid).or_insert(p);
             }
             ring.dedup();
-            self.breaks.extend(engine::straight_points(&ring));
+            self.keepsakes.add(&ring);
             if (signed_area(source) < 0.0) == (i == 0) {
                 ring.reverse();
             }
@@ -95,13 +96,12 @@ impl InputIndex {
         rings
     }
 
-    fn polygons(&self, shapes: Vec<GridShape>, grid: &Grid) -> Vec<Polygon> {
-        let order = |p: GridPoint| self.originals.get(&p).map_or(usize::MAX, |o| o.0);
-        let plan = |p: &GridPoint| self.originals.get(p).map_or_else(|| grid.plan(p[0] as f64, p[1] as f64), |o| o.1);
-        let mut shapes = shapes;
-        shapes.iter_mut().flatten().for_each(|r| engine::tidy(r, &self.breaks, order));
-        shapes.iter_mut().for_each(|s| s[1..].sort_by_key(|r| (order(r[0]), r[0])));
-        shapes.sort_by_key(|s| (order(s[0][0]), s[0][0]));
+    fn polygons(&self, mut shapes: Vec<GridShape>) -> Vec<Polygon> {
+        self.keepsakes.tidy(&mut shapes);
+        let plan = |p: &GridPoint| {
+            let rounded = || self.grid.plan(p[0] as f64, p[1] as f64);
+            self.originals.get(p).copied().unwrap_or_else(rounded)
+        };
         let mut polygons = Vec::with_capacity(shapes.len());
         for shape in shapes {
             let mut rings = shape.iter().map(|r| r.iter().map(plan).collect());

@@ -122,3 +122,103 @@ proptest! {
         }
     }
 }
+
+/// The stage cases of `../shared/hard-cases/stages.json`, each by its name.
+mod stages {
+    use super::*;
+    use crate::geometry::hard_cases::footprint;
+
+    fn girth(p: &Polygon) -> f64 {
+        p.rings().flat_map(|r| (0..r.len()).map(move |i| r[i].distance(r[(i + 1) % r.len()]))).sum()
+    }
+
+    fn turned(p: &Polygon, angle: f64, about: DVec2) -> Polygon {
+        let turn = DVec2::new(libm::cos(angle), libm::sin(angle));
+        let ring = |r: &Vec<DVec2>| r.iter().map(|&q| about + turn.rotate(q - about)).collect();
+        Polygon { outer: ring(&p.outer), holes: p.holes.iter().map(ring).collect() }
+    }
+
+    #[test]
+    fn bool_self() {
+        let Some(star) = footprint("random_star_500") else { return };
+        let a = std::slice::from_ref(&star);
+        let (lo, hi) = star.bounds().expect("points");
+        let tolerance = 4e-9 * girth(&star) * (hi - lo).max_element();
+        for same in [union(a, a), intersection(a, a)] {
+            assert!((area(&same.expect("sound")) - star.area()).abs() < tolerance);
+        }
+        assert_eq!(difference(a, a), Ok(Vec::new()));
+    }
+
+    #[test]
+    fn bool_gap_1e_9() {
+        let gap = 1e-9;
+        let joined = union(&[rect(0.0, 0.0, 10.0, 10.0)], &[rect(10.0 + gap, 0.0, 10.0 - gap, 10.0)]).expect("sound");
+        assert_eq!((joined.len(), joined[0].outer.len()), (1, 4));
+        assert!((area(&joined) - 200.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn bool_rotated_1e_9() {
+        let Some(plus) = footprint("plus_30") else { return };
+        let (a, b) = ([plus.clone()], [turned(&plus, 1e-9, DVec2::splat(15.0))]);
+        for (result, expected) in
+            [(union(&a, &b), 500.0), (intersection(&a, &b), 500.0), (symmetric_difference(&a, &b), 0.0)]
+        {
+            let result = result.expect("sound");
+            assert!((area(&result) - expected).abs() < 1e-6);
+            assert!(result.iter().all(|p| p.area() > 1e-9));
+        }
+    }
+
+    #[test]
+    fn bool_identity() {
+        let (Some(a), Some(b)) = (footprint("star_12_sharp"), footprint("gear_24")) else { return };
+        let (a, b) = ([a], [b]);
+        let of = |r: Result<Vec<Polygon>, BooleanError>| area(&r.expect("sound"));
+        let both = of(intersection(&a, &b));
+        assert!((area(&a) + area(&b) - of(union(&a, &b)) - both).abs() < 1e-7 * area(&a));
+        assert!((area(&a) - of(difference(&a, &b)) - both).abs() < 1e-7 * area(&a));
+    }
+
+    #[test]
+    fn bool_checker() {
+        let all: Vec<(i32, Polygon)> =
+            (0..10_000).map(|k| (k % 100 + k / 100, rect(f64::from(k % 100), f64::from(k / 100), 1.0, 1.0))).collect();
+        let half =
+            |parity: i32| -> Vec<Polygon> { all.iter().filter(|c| c.0 % 2 == parity).map(|c| c.1.clone()).collect() };
+        assert_eq!(union(&half(0), &half(1)), Ok(vec![rect(0.0, 0.0, 100.0, 100.0)]));
+    }
+
+    #[test]
+    fn bool_utm() {
+        let Some(bays) = footprint("bays_utm") else { return };
+        let moved =
+            |p: &Polygon, by: DVec2| Polygon { outer: p.outer.iter().map(|&q| q + by).collect(), holes: Vec::new() };
+        let local = moved(&bays, -bays.outer[0]);
+        let shift = DVec2::new(0.5, 0.25);
+        let far = union(std::slice::from_ref(&bays), &[moved(&bays, shift)]).expect("sound");
+        let near = union(std::slice::from_ref(&local), &[moved(&local, shift)]).expect("sound");
+        assert!((area(&far) - area(&near)).abs() < 1e-6);
+    }
+
+    #[test]
+    fn bool_order() {
+        let side = |k: usize| (k * 7919 % 101) as f64;
+        let all: Vec<Polygon> =
+            (0..200).map(|k| turned(&rect(side(k), side(k + 50), 9.0, 4.0), k as f64, DVec2::splat(50.0))).collect();
+        let reference = area(&union(&all, &[]).expect("sound"));
+        for order in 0..20 {
+            // 199 is prime, so every stride visits all of the first 199.
+            let shuffled: Vec<Polygon> =
+                (0..200).map(|k| if k < 199 { k * (3 + order) % 199 } else { k }).map(|k| all[k].clone()).collect();
+            let joined = union(&shuffled, &[]).expect("sound");
+            assert!((area(&joined) - reference).abs() < 1e-6);
+        }
+        let mut one_by_one: Vec<Polygon> = Vec::new();
+        for p in all.iter().rev() {
+            one_by_one = union(&one_by_one, std::slice::from_ref(p)).expect("sound");
+        }
+        assert!((area(&one_by_one) - reference).abs() < 1e-4, "{} {reference}", area(&one_by_one));
+    }
+}

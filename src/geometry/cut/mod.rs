@@ -45,7 +45,7 @@ pub struct Cut {
     pub front: Piece,
 }
 
-/// Cuts a mesh by a plane. Vertices within the grid step of the mesh's extent lie on the plane.
+/// Cuts a mesh by a plane. Vertices within 1.5e-8 of the mesh's extent lie on the plane.
 pub fn cut(mesh: &Mesh, plane: &Plane) -> Cut {
     let origins = (0..mesh.faces.len() as u32).map(Origin::Face).collect();
     cut_piece(Piece { mesh: mesh.clone(), origins }, plane, thickness(mesh))
@@ -67,15 +67,16 @@ pub fn slice(mesh: &Mesh, normal: DVec3, boundaries: &[f64]) -> Vec<Piece> {
     pieces
 }
 
-/// Half the thickness of a plane: the kernel's grid step for this extent (numerics section 3), and never below what
-/// f64 resolves at this distance from the origin.
+/// Half the thickness of a plane: 16 steps of the kernel's grid for this extent (numerics section 3), 1.5e-8 of it, so
+/// that walls turned by rounding make no slivers; and never below what f64 resolves this far from the origin.
 fn thickness(mesh: &Mesh) -> f64 {
     let Some((lo, hi)) = mesh.bounds() else { return 0.0 };
-    let extent = (hi - lo).max_element();
     let reach = lo.abs().max(hi.abs()).max_element();
-    let step = 2f64.powi(-30);
-    (extent * step).max(reach * step * step.sqrt())
+    ((hi - lo).max_element() * THICKNESS).max(reach * RESOLUTION)
 }
+
+const THICKNESS: f64 = 16.0 / (1u64 << 30) as f64;
+const RESOLUTION: f64 = 1.0 / (1u64 << 45) as f64;
 
 fn cut_piece(piece: Piece, plane: &Plane, thickness: f64) -> Cut {
     let distances: Vec<f64> = piece.mesh.positions.iter().map(|&p| plane.signed_distance(p)).collect();

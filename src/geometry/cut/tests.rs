@@ -279,3 +279,83 @@ proptest! {
         }
     }
 }
+
+/// The stage cases of `../shared/hard-cases/stages.json`, each by its name.
+mod stages {
+    use super::*;
+    use crate::geometry::hard_cases::footprint;
+
+    fn lot_of(name: &str) -> Option<Mesh> {
+        let mut mesh = Mesh::default();
+        PlaneFrame::PLAN.push_face(&mut mesh, &footprint(name)?, 0.0);
+        Some(mesh)
+    }
+
+    fn areas(pieces: &[Piece]) -> Vec<f64> {
+        pieces.iter().map(|p| surface_area(&p.mesh)).collect()
+    }
+
+    #[test]
+    fn split_polygon_hole() {
+        let Some(mesh) = lot_of("annulus_offcentre") else { return };
+        let (lo, hi) = mesh.bounds().expect("points");
+        let boundaries: Vec<f64> = (1..).map(|k| lo.x + 2.0 * f64::from(k)).take_while(|&x| x < hi.x).collect();
+        let pieces = slice(&mesh, DVec3::X, &boundaries);
+        assert!((areas(&pieces).iter().sum::<f64>() - 245.0).abs() < 245e-9);
+        for piece in &pieces {
+            clean(piece);
+            assert!(piece.mesh.faces.iter().all(|f| piece.mesh.area(f) > 1e-9));
+        }
+        // No T-vertices: what one piece has on a boundary its neighbour has too.
+        for (k, x) in boundaries.iter().enumerate() {
+            let on = |p: &Piece| -> std::collections::BTreeSet<u64> {
+                p.mesh.positions.iter().filter(|q| q.x == *x).map(|q| q.z.to_bits()).collect()
+            };
+            assert_eq!(on(&pieces[k]), on(&pieces[k + 1]), "at {x}");
+        }
+    }
+
+    #[test]
+    fn split_along_edge() {
+        let Some(mesh) = lot_of("plus_30") else { return };
+        let pieces = slice(&mesh, DVec3::X, &[10.0, 20.0]);
+        for (area, expected) in areas(&pieces).iter().zip([100.0, 300.0, 100.0]) {
+            assert!((area - expected).abs() < 1e-9 * expected);
+        }
+        assert!(pieces.iter().all(|p| p.mesh.faces.len() == 1));
+    }
+
+    #[test]
+    fn split_rotated_edge() {
+        let Some(mut mesh) = lot_of("plus_30") else { return };
+        let turn = glam::DMat3::from_rotation_y(1e-9);
+        mesh.positions.iter_mut().for_each(|p| *p = turn * *p);
+        let pieces = slice(&mesh, DVec3::X, &[10.0, 20.0]);
+        for (area, expected) in areas(&pieces).iter().zip([100.0, 300.0, 100.0]) {
+            assert!((area - expected).abs() < 1e-6 * expected);
+        }
+        assert!(pieces.iter().all(|p| p.mesh.faces.len() == 1));
+    }
+
+    #[test]
+    fn split_commute() {
+        let Some(mesh) = lot_of("random_star_500") else { return };
+        let (lo, hi) = mesh.bounds().expect("points");
+        let thirds = |from: f64, to: f64| -> Vec<f64> {
+            (1..).map(|k| from + 3.0 * f64::from(k)).take_while(|&b| b < to).collect()
+        };
+        let (xs, zs) = (thirds(lo.x, hi.x), thirds(lo.z, hi.z));
+        let grid = |first: (DVec3, &[f64]), second: (DVec3, &[f64])| -> Vec<f64> {
+            let columns = slice(&mesh, first.0, first.1);
+            let cells = columns.iter().flat_map(|c| slice(&c.mesh, second.0, second.1));
+            let mut areas: Vec<f64> = cells.filter(|c| !c.is_empty()).map(|c| surface_area(&c.mesh)).collect();
+            areas.sort_by(f64::total_cmp);
+            areas
+        };
+        let (a, b) = (grid((DVec3::X, &xs), (DVec3::Z, &zs)), grid((DVec3::Z, &zs), (DVec3::X, &xs)));
+        assert_eq!(a.len(), b.len());
+        let total = surface_area(&mesh);
+        assert!(a.iter().zip(&b).all(|(p, q)| (p - q).abs() < 1e-9 * total));
+        assert!((a.iter().sum::<f64>() - total).abs() < 1e-9 * total);
+    }
+}

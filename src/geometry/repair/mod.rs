@@ -4,12 +4,10 @@
 //! (numerics section 4). A footprint that is already valid keeps its first edge, its order, its straight vertices and,
 //! on the import lattice, its coordinates bit for bit. Other coordinates move by at most half a grid step.
 
-use std::collections::{BTreeMap, BTreeSet};
-
 use glam::DVec2;
 use i_overlay::core::overlay_rule::OverlayRule;
 
-use super::boolean::engine::{self, GridPoint, GridRing, GridShape};
+use super::boolean::engine::{self, GridPoint, GridRing, GridShape, Keepsakes};
 use super::grid::{GRID_LIMIT, Grid};
 use super::polygon::signed_area;
 use super::polygon_checks::is_strictly_valid;
@@ -257,7 +255,7 @@ fn refill(outline: &GridRing, holes: &[GridRing]) -> Result<Vec<GridShape>, Reje
         engine::overlay(subject, clip, rule).map_err(|_| Rejection::EngineFailed)
     };
     let filled = fill(std::slice::from_ref(outline), &[], OverlayRule::Subject)?;
-    if filled.iter().all(is_rounding_dust) {
+    if filled.iter().all(|s| engine::is_rounding_dust(&s[0])) {
         return Err(Rejection::NoArea);
     }
     let mut filled_holes = Vec::new();
@@ -265,27 +263,13 @@ fn refill(outline: &GridRing, holes: &[GridRing]) -> Result<Vec<GridShape>, Reje
         filled_holes.extend(fill(std::slice::from_ref(hole), &[], OverlayRule::Subject)?.concat());
     }
     let mut shapes = fill(&filled.concat(), &filled_holes, OverlayRule::Difference)?;
-    shapes.retain(|s| !is_rounding_dust(s));
+    let mut keepsakes = Keepsakes::default();
+    [outline].into_iter().chain(holes).for_each(|r| keepsakes.add(r));
+    keepsakes.tidy(&mut shapes);
     if shapes.is_empty() {
         return Err(Rejection::HolesCoverOutline);
     }
-    let breaks: BTreeSet<GridPoint> = holes.iter().chain([outline]).flat_map(|r| engine::straight_points(r)).collect();
-    let mut first_at: BTreeMap<GridPoint, usize> = BTreeMap::new();
-    for (i, &p) in outline.iter().chain(holes.iter().flatten()).enumerate() {
-        first_at.entry(p).or_insert(i);
-    }
-    let order = |p: GridPoint| first_at.get(&p).copied().unwrap_or(usize::MAX);
-    shapes.iter_mut().flatten().for_each(|r| engine::tidy(r, &breaks, order));
-    shapes.iter_mut().for_each(|s| s[1..].sort_by_key(|r| (order(r[0]), r[0])));
-    shapes.sort_by_key(|s| (order(s[0][0]), s[0][0]));
     Ok(shapes)
-}
-
-/// Whether a part is on the mean no wider than two grid steps: it may come from rounding alone.
-fn is_rounding_dust(shape: &GridShape) -> bool {
-    let ring: Ring = shape[0].iter().map(|p| DVec2::new(p[0] as f64, p[1] as f64)).collect();
-    let girth: f64 = (0..ring.len()).map(|i| ring[i].distance(ring[(i + 1) % ring.len()])).sum();
-    signed_area(&ring).abs() <= girth
 }
 
 fn to_plan(shape: &[GridRing], grid: &Grid) -> Polygon {

@@ -1,34 +1,16 @@
 //! The named hard footprints, and properties of any input at all.
 
 use super::*;
+use crate::geometry::hard_cases;
 use crate::geometry::polygon_checks::{crossing_edges, reversed_rings};
 use proptest::prelude::*;
 use serde_json::Value;
-
-const HARD_CASES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/hard-cases/footprints.geojson");
 
 fn ring(points: &[(f64, f64)]) -> Ring {
     points.iter().map(|&(x, y)| DVec2::new(x, y)).collect()
 }
 
 const KERNEL: Options = Options { weld: 0.0, min_area: 0.0 };
-
-/// The rings of a feature, with the one closing point of GeoJSON taken off and `replace` applied.
-fn rings_of(feature: &Value) -> Vec<Ring> {
-    let number = |v: &Value| v.as_f64().expect("a coordinate");
-    let point = |v: &Value| DVec2::new(number(&v[0]), number(&v[1]));
-    let coordinates = feature["geometry"]["coordinates"].as_array().expect("rings");
-    let mut rings: Vec<Ring> =
-        coordinates.iter().map(|r| r.as_array().expect("a ring").iter().map(point).collect()).collect();
-    for r in &mut rings {
-        r.pop();
-    }
-    for change in feature["properties"]["replace"].as_array().into_iter().flatten() {
-        let at = |i: usize| change[i].as_u64().expect("an index") as usize;
-        rings[at(0)][at(1)][at(2)] = change[3].as_str().expect("a value").parse().expect("NaN or Infinity");
-    }
-    rings
-}
 
 fn verdict_name(verdict: Verdict) -> &'static str {
     match verdict {
@@ -41,7 +23,7 @@ fn verdict_name(verdict: Verdict) -> &'static str {
 /// What is wrong with the answer to one case, if anything.
 fn complaint(feature: &Value, options: &Options) -> Option<String> {
     let p = &feature["properties"];
-    let got = repair(&rings_of(feature), options);
+    let got = repair(&hard_cases::rings(feature), options);
     let verdict = verdict_name(got.verdict);
     let also = p["also_accept"].as_array().into_iter().flatten().filter_map(Value::as_str);
     if !also.chain(p["expect"].as_str()).any(|v| v == verdict) {
@@ -68,16 +50,10 @@ fn complaint(feature: &Value, options: &Options) -> Option<String> {
 
 #[test]
 fn named_hard_footprints() {
-    let Ok(text) = std::fs::read_to_string(HARD_CASES) else {
-        assert!(std::env::var_os("CI").is_none(), "{HARD_CASES} is missing");
-        eprintln!("skipped: {HARD_CASES} is missing");
-        return;
-    };
-    let file: Value = serde_json::from_str(&text).expect("JSON");
-    let features = file["features"].as_array().expect("features");
+    let Some(features) = hard_cases::features() else { return };
     assert!(features.len() >= 126);
     let mut wrong = Vec::new();
-    for feature in features {
+    for feature in &features {
         let name = feature["properties"]["name"].as_str().expect("a name");
         // Buildings of millimetres are no mapped data: they are for the kernel alone.
         let mapped = feature["properties"]["area"].as_f64().is_none_or(|a| a >= 0.01);

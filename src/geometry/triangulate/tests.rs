@@ -147,3 +147,44 @@ proptest! {
         check(&Polygon { outer, holes: Vec::new() });
     }
 }
+
+/// The stage cases of `../shared/hard-cases/stages.json`, each by its name.
+mod stages {
+    use super::*;
+    use crate::geometry::hard_cases::{footprint, valid_footprints};
+
+    #[test]
+    fn tri_count() {
+        for (name, polygon) in valid_footprints().unwrap_or_default() {
+            let points: Vec<DVec2> = polygon.rings().flatten().copied().collect();
+            let triangles = triangulate_polygon(&polygon);
+            assert_eq!(triangles.len(), points.len() + 2 * polygon.holes.len() - 2, "{name}");
+            let areas: Vec<f64> = triangles.iter().map(|t| signed_area(&t.map(|i| points[i as usize]))).collect();
+            assert!(areas.iter().all(|&a| a >= 0.0), "{name}");
+            assert!((areas.iter().sum::<f64>() - polygon.area()).abs() <= 1e-9 * polygon.area(), "{name}");
+        }
+    }
+
+    #[test]
+    fn tri_duplicates() {
+        let outer = ring(&[(0.0, 0.0), (1.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]);
+        assert_eq!(triangulate_polygon(&Polygon { outer, holes: Vec::new() }).len(), 2);
+    }
+
+    #[test]
+    fn tri_range() {
+        let outer = ring(&[(0.0, 0.0), (1e-50, 0.0), (0.0, 1e300), (5.0, 1.0)]);
+        assert!(
+            triangulate_polygon(&Polygon { outer, holes: vec![ring(&[(1.0, 1.0), (2.0, 1.0), (2.0, 2.0)])] })
+                .is_empty()
+        );
+    }
+
+    #[test]
+    fn tri_10k() {
+        let Some(polygon) = footprint("ngon_10000") else { return };
+        let start = std::time::Instant::now();
+        assert_eq!(triangulate_polygon(&polygon).len(), 9_998);
+        assert!(start.elapsed().as_secs_f64() < 1.0);
+    }
+}
