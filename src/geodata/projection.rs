@@ -211,7 +211,10 @@ mod tests {
         let back = frame.inverse(east);
         assert!((back.0 + 179.999).abs() < 1e-11 && back.0 > -180.0);
         assert_eq!(frame.forward(540.0 + 179.999 - 180.0, -16.5), frame.forward(180.0 - 0.001 + 360.0, -16.5));
-        assert_eq!((reduce_longitude(-180.0), reduce_longitude(180.0), reduce_longitude(-190.0)), (180.0, 180.0, 170.0));
+        assert_eq!(
+            (reduce_longitude(-180.0), reduce_longitude(180.0), reduce_longitude(-190.0)),
+            (180.0, 180.0, 170.0)
+        );
     }
 
     #[test]

@@ -2,6 +2,7 @@
 //!
 //! World axes: x east, y up, z south, metres about the site's one origin.
 
+pub mod ground;
 pub mod model;
 
 pub use model::{Group, Presence, Scene, SceneClass, SceneObject, TriMesh};

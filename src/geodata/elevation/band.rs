@@ -15,9 +15,7 @@ pub(super) struct Band {
 
 impl Band {
     /// Height of a cell of a block of `cells` cells; further bands that are interleaved with the first are skipped.
-    pub(super) fn metres(
-        &self, values: &DecodingResult, cell: usize, cells: usize,
-    ) -> Result<f32, ElevationProblem> {
+    pub(super) fn metres(&self, values: &DecodingResult, cell: usize, cells: usize) -> Result<f32, ElevationProblem> {
         macro_rules! at {
             ($v:expr) => {
                 $v.get(cell * ($v.len() / cells).max(1)).copied()

@@ -30,7 +30,10 @@ pub(super) fn looks_like(bytes: &[u8]) -> bool {
 
 /// Decodes the cells that `area` needs, or all; `crs` replaces what the file says.
 pub(super) fn read(
-    name: &str, bytes: &[u8], area: Option<LonLatBox>, crs: Option<&str>,
+    name: &str,
+    bytes: &[u8],
+    area: Option<LonLatBox>,
+    crs: Option<&str>,
 ) -> Result<Raster, ElevationProblem> {
     let mut limits = Limits::default();
     limits.ifd_value_size = 64 << 20;
@@ -184,7 +187,11 @@ fn cells(tiff: &mut Tiff, file_length: u64, window: Window, band: &Band) -> Resu
 
 /// Copies a block's part of the window.
 fn place(
-    values: &DecodingResult, block: Window, window: Window, band: &Band, heights: &mut [f32],
+    values: &DecodingResult,
+    block: Window,
+    window: Window,
+    band: &Band,
+    heights: &mut [f32],
 ) -> Result<(), ElevationProblem> {
     let columns = block.column.max(window.column)..(block.column + block.width).min(window.column + window.width);
     for row in block.row.max(window.row)..(block.row + block.height).min(window.row + window.height) {

@@ -105,6 +105,9 @@ mod tests {
         assert!(matches!(read("t", "hill.hgt", &tile(), None), Err(ElevationProblem::HgtName(_))));
         assert!(matches!(read("t", "N42E001.hgt", &tile()[2..], None), Err(ElevationProblem::HgtSize(_))));
         assert_eq!(corner("a/b/n05w008.hgt"), Some((-8.0, 5.0)));
-        assert_eq!((corner("N91E000.hgt"), corner("N+1E000.hgt"), corner("N4"), corner("é42E001")), (None, None, None, None));
+        assert_eq!(
+            (corner("N91E000.hgt"), corner("N+1E000.hgt"), corner("N4"), corner("é42E001")),
+            (None, None, None, None)
+        );
     }
 }

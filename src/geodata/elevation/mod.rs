@@ -23,15 +23,18 @@ const MAX_UNPACKED: u64 = 4 << 30;
 /// Reads an elevation file; the format is told by its content, and only .hgt needs its name (for the place).
 /// With `area` only the cells around it are decoded. `crs` (`EPSG:<code>` or a PROJ string) replaces what a GeoTIFF
 /// says about its coordinates; .hgt is always WGS84.
-pub fn read(
-    name: &str, bytes: &[u8], area: Option<LonLatBox>, crs: Option<&str>,
-) -> Result<Raster, ElevationError> {
+pub fn read(name: &str, bytes: &[u8], area: Option<LonLatBox>, crs: Option<&str>) -> Result<Raster, ElevationError> {
     unpack(name, name, bytes, area, crs, 0).map_err(|problem| problem.in_file(name))
 }
 
 /// `tile` is the name inside the archive.
 fn unpack(
-    name: &str, tile: &str, bytes: &[u8], area: Option<LonLatBox>, crs: Option<&str>, depth: usize,
+    name: &str,
+    tile: &str,
+    bytes: &[u8],
+    area: Option<LonLatBox>,
+    crs: Option<&str>,
+    depth: usize,
 ) -> Result<Raster, ElevationProblem> {
     if geotiff::looks_like(bytes) {
         geotiff::read(name, bytes, area, crs)

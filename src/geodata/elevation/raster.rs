@@ -103,9 +103,8 @@ impl Raster {
     /// Index and place of every void cell.
     pub(crate) fn void_places(&self) -> Vec<(usize, (f64, f64))> {
         let voids = self.heights.iter().enumerate().filter(|(_, h)| h.is_nan()).map(|(i, _)| i);
-        let centre = |i: usize| {
-            DVec2::new((i % self.placement.width) as f64 + 0.5, (i / self.placement.width) as f64 + 0.5)
-        };
+        let centre =
+            |i: usize| DVec2::new((i % self.placement.width) as f64 + 0.5, (i / self.placement.width) as f64 + 0.5);
         voids.filter_map(|i| Some((i, self.placement.place_of(centre(i))?))).collect()
     }
 

@@ -91,7 +91,11 @@ fn same_numbers_give_the_same_surface_however_they_are_stored() {
 fn a_window_of_a_tiled_and_of_a_rotated_file_gives_the_same_heights() {
     let Some(folder) = shared("geotiff-variants") else { return };
     let area = LonLatBox { west: -122.2295, south: 37.8225, east: -122.2265, north: 37.8255 };
-    for file in ["04-float32-tiled-deflate-pred3.tif", "27-float32-rotated15deg-utm10n.tif", "19-float32-nad83-albers-epsg3310.tif"] {
+    for file in [
+        "04-float32-tiled-deflate-pred3.tif",
+        "27-float32-rotated15deg-utm10n.tif",
+        "19-float32-nad83-albers-epsg3310.tif",
+    ] {
         let bytes = std::fs::read(folder.join(file)).unwrap();
         let (whole, part) = (read(file, &bytes, None, None).unwrap(), read(file, &bytes, Some(area), None).unwrap());
         assert!(part.size().0 * part.size().1 < 1500, "{file}: {:?}", part.size());
@@ -140,7 +144,12 @@ fn real_files_hold_the_stated_heights_and_voids() {
     assert_eq!((ventura.size(), ventura.implausible()), ((531, 382), 178));
     let francisco = open(&folder, "san-francisco-dem-30m-float32.tif", None).unwrap();
     assert_eq!((francisco.size(), francisco.voids()), ((600, 475), 0));
-    for file in ["chicago-dem-30m.tif", "monaco-dem-90m.tif", "piedmont-oakland-ca-dem-30m.tif", "queens-village-ny-dem-90m.tif"] {
+    for file in [
+        "chicago-dem-30m.tif",
+        "monaco-dem-90m.tif",
+        "piedmont-oakland-ca-dem-30m.tif",
+        "queens-village-ny-dem-90m.tif",
+    ] {
         assert!(open(&folder, file, None).is_ok_and(|r| r.voids() < r.size().0 * r.size().1 / 100), "{file}");
     }
 }
@@ -153,7 +162,8 @@ fn damaged_files_are_errors_and_never_panics() {
     assert!(matches!(read("a.gz", b"\x1f\x8b\x08", None, None).unwrap_err().problem, ElevationProblem::Gzip(_)));
     let Some(folder) = shared("geotiff-variants") else { return };
     let mut state = 1_u32;
-    for file in ["02-int16-tiled-deflate-pred2.tif", "05-float32-strips-lzw-pred3.tif", "06-float32-bigtiff-tiled.tif"] {
+    for file in ["02-int16-tiled-deflate-pred2.tif", "05-float32-strips-lzw-pred3.tif", "06-float32-bigtiff-tiled.tif"]
+    {
         let good = std::fs::read(folder.join(file)).unwrap();
         for length in (0..good.len()).step_by(good.len() / 40) {
             assert!(read(file, &good[..length], None, None).is_err(), "{file} cut to {length}");

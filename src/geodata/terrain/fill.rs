@@ -41,11 +41,8 @@ fn peel(heights: &mut [f32], width: usize) -> Vec<usize> {
         for (&cell, value) in layer.iter().zip(values) {
             heights[cell] = value;
         }
-        let mut next: Vec<usize> = layer
-            .iter()
-            .flat_map(|&c| neighbours(heights.len(), width, c))
-            .filter(|&c| heights[c].is_nan())
-            .collect();
+        let mut next: Vec<usize> =
+            layer.iter().flat_map(|&c| neighbours(heights.len(), width, c)).filter(|&c| heights[c].is_nan()).collect();
         next.sort_unstable();
         next.dedup();
         order.append(&mut layer);

@@ -70,11 +70,16 @@ impl Terrain {
 
     /// Takes rasters in order of preference; `lo` and `hi` are the corners of the scene in the plan.
     pub fn from_rasters(
-        frame: LocalFrame, lo: DVec2, hi: DVec2, rasters: Vec<Raster>, voids: Voids,
+        frame: LocalFrame,
+        lo: DVec2,
+        hi: DVec2,
+        rasters: Vec<Raster>,
+        voids: Voids,
     ) -> Result<Self, TerrainError> {
         let names: Vec<String> = rasters.iter().map(|r| r.name().to_owned()).collect();
         let mut rasters: Vec<Raster> = rasters.into_iter().filter(|r| r.voids() < r.size().0 * r.size().1).collect();
-        let mut report = TerrainReport { undeclared: rasters.iter().map(Raster::implausible).sum(), ..Default::default() };
+        let mut report =
+            TerrainReport { undeclared: rasters.iter().map(Raster::implausible).sum(), ..Default::default() };
         if voids == Voids::Fill {
             fill_from_others(&mut rasters, &mut report);
             for raster in &mut rasters {

@@ -51,9 +51,14 @@ fn voids_are_filled_and_counted_or_left_open() {
     let Some(raster) = open("dem/andorra-dem-90m.tif", Some(area)) else { return };
     let voids = raster.voids();
     assert!(voids > 150, "{voids}");
-    let open_voids =
-        Terrain::from_rasters(frame, -half, half, vec![open("dem/andorra-dem-90m.tif", Some(area)).unwrap()], Voids::Open)
-            .unwrap();
+    let open_voids = Terrain::from_rasters(
+        frame,
+        -half,
+        half,
+        vec![open("dem/andorra-dem-90m.tif", Some(area)).unwrap()],
+        Voids::Open,
+    )
+    .unwrap();
     let filled = Terrain::from_rasters(frame, -half, half, vec![raster], Voids::Fill).unwrap();
     assert_eq!((filled.report().filled_from_neighbours, filled.report().open), (voids, 0));
     assert_eq!((open_voids.report().filled_from_neighbours, open_voids.report().open), (0, voids));
