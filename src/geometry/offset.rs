@@ -79,30 +79,40 @@ pub(crate) fn reversed_edge(edge: usize, count: usize) -> usize {
     (2 * count - 2 - edge) % count
 }
 
-/// Let the outline grow by `distance` > 0.
-pub(crate) fn grow(polygon: &Polygon, distance: f64) -> Result<Outside, SkeletonError> {
-    if !distance.is_finite() {
-        return Err(SkeletonError::Distance(distance));
-    }
+/// Let every edge move outwards by its own distance (>= 0).
+pub(crate) fn grow(polygon: &Polygon, distances: &[f64]) -> Result<Outside, SkeletonError> {
+    let farthest = distances.iter().fold(0.0, |m, &d| f64::max(m, d));
     let (min, max) = polygon.bounds().ok_or(SkeletonError::TooFewPoints)?;
-    let margin = DVec2::splat(3.0 * distance * MITRE_LIMIT);
+    let margin = DVec2::splat(3.0 * farthest * MITRE_LIMIT);
     let (low, high) = (min - margin, max + margin);
     let frame = vec![low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)];
     let region = Polygon { outer: frame, holes: vec![polygon.outer.iter().rev().copied().collect()] };
-    let mut weights = vec![1.0; FRAME + polygon.outer.len()];
-    weights[..FRAME].fill(0.0);
     let options = Options { mitre_limit: Some(MITRE_LIMIT), ..Options::default() };
-    let around = run(&region, Some(&weights), Some(distance), &options)?;
-    let shrink = |hole: &Ring| {
-        let reversed = Polygon { outer: hole.iter().rev().copied().collect(), holes: Vec::new() };
-        run(&reversed, None, Some(distance), &options)
+    let mut first = 0;
+    let mut weights_of = |ring: &Ring| {
+        let count = ring.len();
+        let own = distances.get(first..first + count);
+        first += count;
+        let own = own.ok_or(SkeletonError::WeightCount { given: distances.len(), edges: first })?;
+        Ok((0..count).map(|e| own[reversed_edge(e, count)]).collect::<Vec<f64>>())
     };
-    let in_holes = polygon.holes.iter().map(shrink).collect::<Result<_, _>>()?;
+    let mut weights = vec![0.0; FRAME];
+    weights.extend(weights_of(&polygon.outer)?);
+    let around = run(&region, Some(&weights), Some(1.0), &options)?;
+    let mut shrink = |hole: &Ring| {
+        let reversed = Polygon { outer: hole.iter().rev().copied().collect(), holes: Vec::new() };
+        run(&reversed, Some(&weights_of(hole)?), Some(1.0), &options)
+    };
+    let in_holes = polygon.holes.iter().map(&mut shrink).collect::<Result<_, _>>()?;
     Ok(Outside { around, region, in_holes })
 }
 
 fn outwards(polygon: &Polygon, distance: f64) -> Result<Offset, SkeletonError> {
-    let outside = grow(polygon, distance)?;
+    if !distance.is_finite() {
+        return Err(SkeletonError::Distance(distance));
+    }
+    let edges = polygon.rings().map(Vec::len).sum();
+    let outside = grow(polygon, &vec![distance; edges])?;
     let count = polygon.outer.len();
     let own = |edge: usize| edge.checked_sub(FRAME).map(|e| reversed_edge(e, count));
     let mut borders_out = borders(&outside.around, own);

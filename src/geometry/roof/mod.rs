@@ -1,8 +1,26 @@
 //! Roof meshes over a plan polygon. In: a repaired [`Polygon`] and slope, overhang, edge. Out: a closed [`Roof`] in a
 //! local frame where the polygon lies at height 0: plan (x, y) becomes (x, height, -y).
 
+mod gable;
+mod hip;
+mod overhang;
+mod plan;
+mod profile;
+mod pyramid;
+mod ridge;
+mod shed;
+
+#[cfg(test)]
+mod tests;
+
+pub use self::gable::{gable, half_hipped};
+pub use self::hip::hip;
+pub use self::profile::{Profile, dome, gambrel, mansard, round};
+pub use self::pyramid::pyramid;
+pub use self::ridge::ridge;
+pub use self::shed::{shed, skillion};
+
 use crate::geometry::mesh::Mesh;
-use crate::geometry::polygon::Polygon;
 use crate::geometry::skeleton::SkeletonError;
 
 /// How steep: CGA `byAngle` (degrees) or `byHeight` (metres from the polygon to the highest point, overhang not counted).
@@ -45,44 +63,35 @@ pub enum RoofWarning {
 /// Why there is no roof.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum RoofError {
-    #[error("roof angle {0} is outside 0 <= angle < 90 degrees")]
+    #[error("the roof angle of {0} degrees is outside its domain (0 to below 90; a shed may also fall, above -90)")]
     Angle(f64),
     #[error("roof height {0} is not a finite number of at least 0")]
     Height(f64),
     #[error("overhang {0} is not a finite number of at least 0")]
     Overhang(f64),
+    #[error("{0} is not a direction")]
+    Direction(glam::DVec2),
+    #[error("the fraction {0} is not between 0 and 1")]
+    Fraction(f64),
     #[error(transparent)]
     Skeleton(#[from] SkeletonError),
 }
 
-/// CGA `roofHip`. `overhang` is measured on the roof plane; `even` levels the ridges at their mean height.
-pub fn hip(polygon: &Polygon, slope: Slope, overhang: f64, even: bool) -> Result<Roof, RoofError> {
-    todo!()
+impl Slope {
+    /// The tangent of the slope, given the height of the roof at slope 1.
+    fn tangent(self, unit_height: f64) -> Result<f64, RoofError> {
+        match self {
+            Slope::Angle(degrees) if (0.0..90.0).contains(&degrees) => Ok(libm::tan(degrees.to_radians())),
+            Slope::Angle(degrees) => Err(RoofError::Angle(degrees)),
+            Slope::Height(height) if height.is_finite() && height >= 0.0 => {
+                Ok(if unit_height > 0.0 { height / unit_height } else { 0.0 })
+            }
+            Slope::Height(height) => Err(RoofError::Height(height)),
+        }
+    }
 }
 
-/// CGA `roofGable`: `overhang_x` at the eaves, `overhang_y` at the gables; `index` is the edge that becomes a gable.
-pub fn gable(
-    polygon: &Polygon,
-    slope: Slope,
-    overhang_x: f64,
-    overhang_y: f64,
-    even: bool,
-    index: Option<i64>,
-) -> Result<Roof, RoofError> {
-    todo!()
-}
-
-/// CGA `roofPyramid`: apex over the mean of the vertices.
-pub fn pyramid(polygon: &Polygon, slope: Slope) -> Result<Roof, RoofError> {
-    todo!()
-}
-
-/// CGA `roofShed`: one plane through edge `index` (wraps around; negative counts from the end).
-pub fn shed(polygon: &Polygon, slope: Slope, index: i64) -> Result<Roof, RoofError> {
-    todo!()
-}
-
-/// CGA `roofRidge`: one level ridge in direction `along` (plan), vertical sides.
-pub fn ridge(polygon: &Polygon, slope: Slope, along: glam::DVec2) -> Result<Roof, RoofError> {
-    todo!()
+/// A length that must be finite and not negative.
+fn check_overhang(overhang: f64) -> Result<f64, RoofError> {
+    if overhang.is_finite() && overhang >= 0.0 { Ok(overhang) } else { Err(RoofError::Overhang(overhang)) }
 }

@@ -1,0 +1,287 @@
+//! Closed forms of `cga-reference.md` §10.5 and the roof cases of `hard-cases/stages.json`.
+
+use glam::{DVec2, DVec3};
+
+use super::*;
+use crate::geometry::mesh_checks::{edges_run_twice_the_same_way, edges_used_more_than_twice, open_edges};
+use crate::geometry::polygon::Polygon;
+use crate::geometry::triangulate::triangulate_face;
+
+fn polygon(outer: &[(f64, f64)], holes: &[&[(f64, f64)]]) -> Polygon {
+    let ring = |r: &[(f64, f64)]| r.iter().map(|&(x, y)| DVec2::new(x, y)).collect();
+    Polygon { outer: ring(outer), holes: holes.iter().map(|h| ring(h)).collect() }
+}
+
+fn rectangle(w: f64, h: f64) -> Polygon {
+    polygon(&[(0.0, 0.0), (w, 0.0), (w, h), (0.0, h)], &[])
+}
+
+fn l_10() -> Polygon {
+    polygon(&[(0.0, 0.0), (10.0, 0.0), (10.0, 5.0), (5.0, 5.0), (5.0, 10.0), (0.0, 10.0)], &[])
+}
+
+fn u_12() -> Polygon {
+    polygon(
+        &[(0.0, 0.0), (12.0, 0.0), (12.0, 10.0), (9.0, 10.0), (9.0, 4.0), (3.0, 4.0), (3.0, 10.0), (0.0, 10.0)],
+        &[],
+    )
+}
+
+/// Outline 12 x 12 around a courtyard of 4 x 4.
+fn courtyard() -> Polygon {
+    polygon(
+        &[(0.0, 0.0), (12.0, 0.0), (12.0, 12.0), (0.0, 12.0)],
+        &[&[(4.0, 8.0), (8.0, 8.0), (8.0, 4.0), (4.0, 4.0)]],
+    )
+}
+
+/// Six times the signed volume between the faces and the origin, by triangles.
+fn volume(roof: &Roof) -> f64 {
+    let p = |i: u32| roof.mesh.positions[i as usize];
+    let triangles = roof.mesh.faces.iter().flat_map(|f| triangulate_face(&roof.mesh, f));
+    triangles.map(|[a, b, c]| p(a).dot(p(b).cross(p(c)))).sum::<f64>() / 6.0
+}
+
+fn area(roof: &Roof, face: usize) -> f64 {
+    let mesh = &roof.mesh;
+    let p = |i: u32| mesh.positions[i as usize];
+    let triangles = triangulate_face(mesh, &mesh.faces[face]);
+    triangles.iter().map(|&[a, b, c]| (p(b) - p(a)).cross(p(c) - p(a)).length() / 2.0).sum()
+}
+
+fn size(roof: &Roof) -> DVec3 {
+    let (low, high) = roof.mesh.bounds().expect("a roof");
+    high - low
+}
+
+/// Closed, every edge run once each way; faces in edge order after the bottom; each starts with its eave.
+#[track_caller]
+fn assert_sound(roof: &Roof, polygon: &Polygon) {
+    assert_eq!(open_edges(&roof.mesh), [], "open edges");
+    assert_eq!(edges_used_more_than_twice(&roof.mesh), []);
+    assert_eq!(edges_run_twice_the_same_way(&roof.mesh), []);
+    assert_eq!(roof.parts.len(), roof.mesh.faces.len());
+    assert_eq!(roof.parts[0], RoofPart::Bottom);
+    let points: Vec<DVec2> = polygon.rings().flatten().copied().collect();
+    let mut before = 0;
+    for (face, part) in roof.mesh.faces.iter().zip(&roof.parts).skip(1) {
+        let (RoofPart::Top { edge: Some(edge) } | RoofPart::Side { edge }) = *part else { continue };
+        assert!(edge >= before, "faces out of order");
+        before = edge;
+        let start = roof.mesh.positions[face.outer[0] as usize];
+        if start.y == 0.0 {
+            assert_eq!(DVec2::new(start.x, -start.z), points[edge], "face of edge {edge} does not start with it");
+        }
+    }
+}
+
+#[track_caller]
+fn close(a: f64, b: f64) {
+    assert!((a - b).abs() < 1e-6 * (1.0 + b.abs()), "{a} is not {b}");
+}
+
+#[test]
+fn hip_on_a_rectangle() {
+    let r = rectangle(10.0, 6.0);
+    let roof = hip(&r, Slope::Angle(45.0), 0.0, false).unwrap();
+    assert_sound(&roof, &r);
+    assert_eq!(roof.mesh.faces.len(), 5);
+    assert!((size(&roof) - DVec3::new(10.0, 3.0, 6.0)).length() < 1e-6);
+    close(volume(&roof), 36.0 * (3.0 * 10.0 - 6.0) / 12.0);
+    let wide = hip(&r, Slope::Angle(45.0), 1.0, false).unwrap();
+    assert!((size(&wide) - DVec3::new(11.414213562, 3.707106781, 7.414213562)).length() < 1e-6);
+    assert_eq!(wide.mesh.faces.iter().map(|f| f.outer.len()).collect::<Vec<_>>(), [4, 4, 3, 4, 3]);
+    close(size(&hip(&r, Slope::Height(2.0), 0.0, false).unwrap()).y, 2.0);
+}
+
+#[test]
+fn hip_of_extreme_angles() {
+    let r = rectangle(20.0, 10.0);
+    for (angle, height, surface) in [(0.1, 0.00872665512094, 200.000304618), (89.9, 2864.78606677, 114591.617204)] {
+        let roof = hip(&r, Slope::Angle(angle), 0.0, false).unwrap();
+        close(size(&roof).y, height);
+        close((1..5).map(|f| area(&roof, f)).sum(), surface);
+    }
+    assert_eq!(size(&hip(&r, Slope::Angle(0.0), 0.0, false).unwrap()).y, 0.0);
+    for angle in [90.0, -10.0, 179.0, f64::INFINITY] {
+        assert_eq!(hip(&r, Slope::Angle(angle), 0.0, false), Err(RoofError::Angle(angle)));
+        assert_eq!(gable(&r, Slope::Angle(angle), 0.0, 0.0, false, None), Err(RoofError::Angle(angle)));
+    }
+    assert!(matches!(hip(&r, Slope::Angle(f64::NAN), 0.0, false), Err(RoofError::Angle(_))));
+    assert!(matches!(hip(&r, Slope::Height(f64::NAN), 0.0, false), Err(RoofError::Height(_))));
+    assert!(matches!(hip(&r, Slope::Angle(30.0), -1.0, false), Err(RoofError::Overhang(_))));
+}
+
+#[test]
+fn hip_around_a_courtyard() {
+    let roof = hip(&courtyard(), Slope::Angle(45.0), 0.0, false).unwrap();
+    assert_sound(&roof, &courtyard());
+    assert_eq!(roof.mesh.faces.len(), 9);
+    close(size(&roof).y, 2.0);
+    let wide = hip(&courtyard(), Slope::Angle(45.0), 2f64.sqrt(), false).unwrap();
+    assert!((size(&wide) - DVec3::new(14.0, 3.0, 14.0)).length() < 1e-6);
+}
+
+#[test]
+fn overhang_of_facing_wings_meets_between_them() {
+    let roof = hip(&u_12(), Slope::Angle(30.0), 3.5, false).unwrap();
+    let out = 3.5 * libm::cos(30f64.to_radians());
+    // The bay is 6 m wide: 3.03 m from both sides is too much.
+    close(size(&roof).x, 12.0 + 2.0 * out);
+    let plan: f64 = (1..roof.mesh.faces.len()).map(|f| area(&roof, f) * libm::cos(30f64.to_radians())).sum();
+    close(plan, (12.0 + 2.0 * out) * (10.0 + 2.0 * out) - 0.0 * out);
+}
+
+#[test]
+fn overhang_at_a_sharp_corner_is_limited() {
+    let needle = polygon(&[(0.0, 0.0), (100.0, 0.0), (100.0, 0.174532925)], &[]);
+    let roof = hip(&needle, Slope::Angle(30.0), 1.0, false).unwrap();
+    assert!(size(&roof).x < 100.0 + 5.0, "{}", size(&roof));
+}
+
+#[test]
+fn gable_on_a_rectangle() {
+    let r = rectangle(10.0, 6.0);
+    let roof = gable(&r, Slope::Angle(30.0), 0.0, 0.0, false, None).unwrap();
+    assert_sound(&roof, &r);
+    assert_eq!(roof.parts[2..5].iter().filter(|p| matches!(p, RoofPart::Side { .. })).count(), 2);
+    close(size(&roof).y, 1.7320508);
+    let r = rectangle(20.0, 10.0);
+    let roof = gable(&r, Slope::Angle(30.0), 0.0, 0.0, false, None).unwrap();
+    close(volume(&roof), 288.675134595);
+    close(area(&roof, 2), 14.4337567297);
+}
+
+#[test]
+fn gable_with_overhangs() {
+    let roof = gable(&rectangle(10.0, 6.0), Slope::Angle(30.0), 1.0, 0.5, false, None).unwrap();
+    assert!((size(&roof) - DVec3::new(11.0, 1.7320508 + 0.5, 6.0 + 2.0 * 0.8660254)).length() < 1e-6, "{}", size(&roof));
+    let planes: Vec<f64> = (0..5).filter(|&f| matches!(roof.parts[f], RoofPart::Top { .. })).map(|f| area(&roof, f)).collect();
+    // 11 m along the ridge, 3 / cos 30 + 1 m down the slope.
+    assert_eq!(planes.len(), 2);
+    planes.iter().for_each(|&a| close(a, 11.0 * (3.0 / 0.8660254038 + 1.0)));
+    let only_ridge = gable(&rectangle(10.0, 6.0), Slope::Angle(30.0), 0.0, 0.5, false, None).unwrap();
+    assert!((size(&only_ridge) - DVec3::new(11.0, 1.7320508, 6.0)).length() < 1e-6);
+    let only_eaves = gable(&rectangle(10.0, 6.0), Slope::Angle(30.0), 1.0, 0.0, false, None).unwrap();
+    assert!((size(&only_eaves) - DVec3::new(10.0, 2.2320508, 7.7320508)).length() < 1e-6);
+}
+
+#[test]
+fn gable_of_a_square_and_by_index() {
+    let square = rectangle(10.0, 10.0);
+    let sides = |roof: &Roof| {
+        let side = |p: &RoofPart| if let RoofPart::Side { edge } = p { Some(*edge) } else { None };
+        roof.parts.iter().filter_map(side).collect::<Vec<_>>()
+    };
+    let roof = gable(&square, Slope::Angle(30.0), 0.0, 0.0, false, None).unwrap();
+    assert_sound(&roof, &square);
+    assert_eq!(sides(&roof), [1, 3]);
+    close(volume(&roof), 144.337567297);
+    for index in [0, 2, -2, 4] {
+        let roof = gable(&rectangle(20.0, 10.0), Slope::Angle(30.0), 0.0, 0.0, false, Some(index)).unwrap();
+        assert_eq!(sides(&roof), [0, 2]);
+        close(size(&roof).y, 10.0 * libm::tan(30f64.to_radians()));
+    }
+    let pentagon = polygon(&[(0.0, 0.0), (10.0, 0.0), (13.0, 8.0), (5.0, 14.0), (-3.0, 8.0)], &[]);
+    let roof = gable(&pentagon, Slope::Angle(30.0), 0.0, 0.0, false, Some(0)).unwrap();
+    assert_sound(&roof, &pentagon);
+    assert_eq!(sides(&roof), [0, 2]);
+}
+
+#[test]
+fn gable_on_concave_outlines() {
+    let roof = gable(&l_10(), Slope::Angle(40.0), 0.0, 0.0, false, Some(0)).unwrap();
+    assert_sound(&roof, &l_10());
+    assert_eq!(roof.warnings, [RoofWarning::IndexIgnored]);
+    assert_eq!(roof.parts.iter().filter(|p| matches!(p, RoofPart::Side { .. })).count(), 2);
+    let holed = gable(&courtyard(), Slope::Angle(40.0), 0.0, 0.0, false, None).unwrap();
+    assert!(!holed.parts.iter().any(|p| matches!(p, RoofPart::Side { .. })));
+    let wide = gable(&l_10(), Slope::Angle(40.0), 0.5, 0.5, false, None).unwrap();
+    assert!(size(&wide).x > 10.3 && size(&wide).z > 10.3);
+}
+
+#[test]
+fn pyramids() {
+    let roof = pyramid(&rectangle(10.0, 6.0), Slope::Angle(45.0)).unwrap();
+    assert_sound(&roof, &rectangle(10.0, 6.0));
+    close(size(&roof).y, 3.0);
+    let roof = pyramid(&l_10(), Slope::Height(3.0)).unwrap();
+    close(volume(&roof), 75.0);
+    assert!(roof.mesh.faces.iter().all(|f| roof.mesh.newell(f).is_finite() && roof.mesh.newell(f) != DVec3::ZERO));
+    let roof = pyramid(&u_12(), Slope::Height(3.0)).unwrap();
+    assert_eq!(roof.warnings, [RoofWarning::Overlapping]);
+    close(volume(&roof), 84.0);
+    assert_eq!(pyramid(&courtyard(), Slope::Height(3.0)).unwrap().warnings, [RoofWarning::HolesDropped]);
+}
+
+#[test]
+fn sheds() {
+    let r = rectangle(20.0, 10.0);
+    let roof = shed(&r, Slope::Angle(30.0), 0).unwrap();
+    assert_sound(&roof, &r);
+    close(volume(&roof), 577.35026919);
+    assert_eq!(roof.mesh.faces.iter().map(|f| f.outer.len()).collect::<Vec<_>>(), [4, 3, 4, 3, 4]);
+    close(size(&shed(&rectangle(10.0, 6.0), Slope::Angle(30.0), 0).unwrap()).y, 3.4641016);
+    close(volume(&shed(&r, Slope::Angle(-30.0), 0).unwrap()), 577.35026919);
+    close(size(&shed(&u_12(), Slope::Height(2.0), 5).unwrap()).y, 2.0);
+    assert_sound(&shed(&courtyard(), Slope::Angle(10.0), -1).unwrap(), &courtyard());
+    assert_eq!(shed(&r, Slope::Angle(-90.0), 0), Err(RoofError::Angle(-90.0)));
+    let south = skillion(&r, Slope::Height(1.0), DVec2::NEG_Y).unwrap();
+    assert_eq!(south, shed(&r, Slope::Height(1.0), 0).unwrap());
+}
+
+#[test]
+fn ridges() {
+    let r = rectangle(10.0, 6.0);
+    let roof = ridge(&r, Slope::Angle(45.0), DVec2::X).unwrap();
+    assert_sound(&roof, &r);
+    close(size(&roof).y, 3.0);
+    close(volume(&roof), 90.0);
+    let holed = ridge(&courtyard(), Slope::Height(2.0), DVec2::new(1.0, 0.3)).unwrap();
+    assert_sound(&holed, &courtyard());
+    close(size(&holed).y, 2.0);
+    let u = ridge(&u_12(), Slope::Angle(30.0), DVec2::X).unwrap();
+    assert_sound(&u, &u_12());
+    assert!(matches!(ridge(&r, Slope::Angle(45.0), DVec2::ZERO), Err(RoofError::Direction(_))));
+}
+
+#[test]
+fn bent_roofs() {
+    // Volume of a mansard: steep part to 1 m, flat beyond, from the level sets of the skeleton.
+    let l = l_10();
+    let (steep, flat) = (libm::tan(70f64.to_radians()), libm::tan(20f64.to_radians()));
+    let roof = mansard(&l, 70.0, 20.0, 1.0).unwrap();
+    assert_sound(&roof, &l);
+    // The L at distance t: area 75 - 40 t + 4 t^2 (perimeter 40, five convex corners, one reflex), to t = 2.5.
+    let level = |t: f64| 75.0 * t - 20.0 * t * t + 4.0 / 3.0 * t * t * t;
+    close(volume(&roof), steep * level(1.0) + flat * (level(2.5) - level(1.0)));
+    let r = rectangle(10.0, 6.0);
+    for roof in [
+        gambrel(&r, 60.0, 30.0, 1.0),
+        dome(&r, 4.0, 6),
+        round(&r, 3.0, 8),
+        half_hipped(&r, Slope::Angle(40.0), 0.5),
+        dome(&courtyard(), 1.0, 4),
+        half_hipped(&l, Slope::Height(3.0), 0.3),
+    ] {
+        let roof = roof.unwrap();
+        assert_eq!((open_edges(&roof.mesh), edges_run_twice_the_same_way(&roof.mesh)), (vec![], vec![]));
+        assert!(volume(&roof) > 0.0);
+    }
+    close(size(&dome(&r, 4.0, 6).unwrap()).y, 4.0);
+    let half = half_hipped(&r, Slope::Angle(45.0), 0.0).unwrap();
+    close(volume(&half), volume(&hip(&r, Slope::Angle(45.0), 0.0, false).unwrap()));
+    let full = half_hipped(&r, Slope::Angle(45.0), 1.0).unwrap();
+    assert_eq!(full, gable(&r, Slope::Angle(45.0), 0.0, 0.0, false, None).unwrap());
+}
+
+#[test]
+fn even_ridges() {
+    // Wings of different width: ridges at 2 and 3 become 2.5.
+    let t = polygon(&[(0.0, 0.0), (20.0, 0.0), (20.0, 6.0), (10.0, 6.0), (10.0, 16.0), (6.0, 16.0), (6.0, 6.0), (0.0, 6.0)], &[]);
+    let roof = hip(&t, Slope::Angle(45.0), 0.0, true).unwrap();
+    assert_sound(&roof, &t);
+    let mut heights: Vec<f64> = roof.mesh.positions.iter().map(|p| p.y).filter(|&h| h > 0.0).collect();
+    heights.dedup_by(|a, b| (*a - *b).abs() < 1e-9);
+    assert_eq!(heights.len(), 1, "{heights:?}");
+}
