@@ -3,9 +3,8 @@
 use glam::{DVec2, DVec3};
 
 use super::*;
-use crate::geometry::mesh_checks::{edges_run_twice_the_same_way, edges_used_more_than_twice, open_edges};
+use crate::geometry::mesh_checks::{self, edges_run_twice_the_same_way, edges_used_more_than_twice, open_edges};
 use crate::geometry::polygon::Polygon;
-use crate::geometry::triangulate::triangulate_face;
 
 fn polygon(outer: &[(f64, f64)], holes: &[&[(f64, f64)]]) -> Polygon {
     let ring = |r: &[(f64, f64)]| r.iter().map(|&(x, y)| DVec2::new(x, y)).collect();
@@ -35,18 +34,12 @@ fn courtyard() -> Polygon {
     )
 }
 
-/// Six times the signed volume between the faces and the origin, by triangles.
 fn volume(roof: &Roof) -> f64 {
-    let p = |i: u32| roof.mesh.positions[i as usize];
-    let triangles = roof.mesh.faces.iter().flat_map(|f| triangulate_face(&roof.mesh, f));
-    triangles.map(|[a, b, c]| p(a).dot(p(b).cross(p(c)))).sum::<f64>() / 6.0
+    mesh_checks::volume(&roof.mesh)
 }
 
 fn area(roof: &Roof, face: usize) -> f64 {
-    let mesh = &roof.mesh;
-    let p = |i: u32| mesh.positions[i as usize];
-    let triangles = triangulate_face(mesh, &mesh.faces[face]);
-    triangles.iter().map(|&[a, b, c]| (p(b) - p(a)).cross(p(c) - p(a)).length() / 2.0).sum()
+    roof.mesh.area(&roof.mesh.faces[face])
 }
 
 fn size(roof: &Roof) -> DVec3 {
@@ -64,7 +57,9 @@ fn assert_sound(roof: &Roof, polygon: &Polygon) {
     assert_eq!(roof.parts[0], RoofPart::Bottom);
     let points: Vec<DVec2> = polygon.rings().flatten().copied().collect();
     let mut before = 0;
-    for (face, part) in roof.mesh.faces.iter().zip(&roof.parts).skip(1) {
+    let one_plane = matches!(roof.parts[1..], [.., RoofPart::Side { .. }, RoofPart::Top { .. }]);
+    let faces = roof.mesh.faces.len() - usize::from(one_plane);
+    for (face, part) in roof.mesh.faces.iter().zip(&roof.parts).take(faces).skip(1) {
         let (RoofPart::Top { edge: Some(edge) } | RoofPart::Side { edge }) = *part else { continue };
         assert!(edge >= before, "faces out of order");
         before = edge;
@@ -129,7 +124,7 @@ fn overhang_of_facing_wings_meets_between_them() {
     // The bay is 6 m wide: 3.03 m from both sides is too much.
     close(size(&roof).x, 12.0 + 2.0 * out);
     let plan: f64 = (1..roof.mesh.faces.len()).map(|f| area(&roof, f) * libm::cos(30f64.to_radians())).sum();
-    close(plan, (12.0 + 2.0 * out) * (10.0 + 2.0 * out) - 0.0 * out);
+    close(plan, (12.0 + 2.0 * out) * (10.0 + 2.0 * out));
 }
 
 #[test]
