@@ -64,8 +64,10 @@ pub enum State {
 /// Which objects a pass draws.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Selection {
+    /// What the recipe asked for, for people; a pass may also show both states at once or some changes only.
     pub state: State,
-    /// One flag per object of the scene.
+    /// One flag per object of the scene. The flags say everything: an object that is not there in the pass's state has
+    /// none, whatever [`crate::scene::Presence`] says.
     pub objects: std::sync::Arc<[bool]>,
 }
 

@@ -43,6 +43,7 @@ pub(super) fn bind(
         }
         check_declaration(input, diagnostics);
         let given = arguments.iter().rev().find(|(name, _)| *name == input.name.text);
+        let mut readable = true;
         let values = match given {
             Some((name, value)) => {
                 let file = sources.add(format!("--set {name}"), value.as_str());
@@ -52,12 +53,13 @@ pub(super) fn bind(
                     "files" => (paths(&file), Diagnostics::default()),
                     _ => parse_values(&file),
                 };
+                readable = !found.has_errors();
                 diagnostics.extend(found);
                 values
             }
             None => input.default.clone(),
         };
-        if values.is_empty() && unbound == Unbound::Error {
+        if values.is_empty() && readable && unbound == Unbound::Error {
             let message = format!("the input `{}` needs a value", input.name.text);
             let help = format!("give it on the command line: `--set {}=…`", input.name.text);
             diagnostics.push(Diagnostic::error("spec::missing-input", input.name.span, message).help(help));

@@ -189,7 +189,7 @@ fn gsd_fov_altitude_and_size_that_contradict_are_shown_with_the_numbers() {
     assert_eq!(
         found,
         "size, gsd, fov and altitude contradict each other: 3072 pixels of 0.6m under 30deg need an altitude of \
-         3439.4m, but it is 1000m | leave one out, or take gsd 0.17445m, or fov 85.329deg"
+         3439.5m, but it is 1000m | leave one out, or take gsd 0.17445m, or fov 85.327deg"
     );
     loaded(&small("camera d { size 3072 x 3072; gsd 0.6m; fov 30deg; altitude 3439m }"));
     message(&small("camera d { gsd 0.6m; fov uniform(20deg, 30deg); altitude 900m }"), "spec::over-determined");

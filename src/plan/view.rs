@@ -1,0 +1,339 @@
+//! In: a checked recipe and a summary of a derived scene. Out: what every view asks for, with all draws made.
+//!
+//! A draw is keyed by scene seed, camera name, the view's number among those of its camera, acquisition and property:
+//! another view, pass or property never changes it.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+use serde::Serialize;
+
+use super::demand::{Ambient, Camera, Output, OutputDemand, Projection, Quality, Selection, Shadows, State, ViewDemand};
+use super::sun::sun;
+use crate::geodata::feature::{FeatureClass, FeatureId};
+use crate::interpreter::seed::Seed;
+use crate::scene::{Presence, Scene, SceneClass};
+use crate::spec::draw::Distribution;
+use crate::spec::render_spec::{
+    AcquisitionSpec, AmbientSpec, CameraSpec, DatasetSpec, Lens, OutputSpec, PassSpec, RenderSpec, SetSpec, ShadowsSpec,
+    StateSpec, ViewSpec,
+};
+
+/// Linear RGB irradiance of a clear sky on a surface that faces up.
+const SKY_ZENITH: [f64; 3] = [0.24, 0.3, 0.38];
+/// Linear RGB irradiance of sunlit ground on a surface that faces down.
+const SKY_GROUND: [f64; 3] = [0.12, 0.11, 0.1];
+/// Metres; the near plane is never nearer.
+const LEAST_NEAR: f64 = 0.1;
+
+/// What planning needs to know of a scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SceneSummary {
+    /// Least and greatest corner of all objects, world metres.
+    pub bounds: (DVec3, DVec3),
+    /// What cameras look at: the scene's centre in the plan, on the terrain.
+    pub centre: DVec3,
+    /// In the order of [`Scene::objects`].
+    pub objects: Vec<PlacedObject>,
+}
+
+/// What selections need to know of an object.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PlacedObject {
+    pub feature: Option<FeatureId>,
+    pub class: SceneClass,
+    pub presence: Presence,
+    /// Number of the change, from 1; 0 for none.
+    pub change: u16,
+}
+
+impl SceneSummary {
+    pub fn new(scene: &Scene, centre: DVec3) -> Self {
+        let objects = scene.objects.iter().map(|object| PlacedObject {
+            feature: object.feature,
+            class: object.class,
+            presence: object.presence,
+            change: object.change,
+        });
+        SceneSummary { bounds: scene.bounds, centre, objects: objects.collect() }
+    }
+}
+
+/// A property of a view and the value it has, such as `camera.off_nadir`: degrees, metres or plain numbers.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Draw {
+    pub path: String,
+    pub value: f64,
+}
+
+/// One view of the recipe, ready to render.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DrawnView {
+    /// Index into [`DatasetSpec::views`].
+    pub view: usize,
+    pub name: String,
+    /// One for each acquisition that differs in camera or sun, all under the view's name; their images together are
+    /// the view's.
+    pub demands: Vec<ViewDemand>,
+    /// Every camera and sun property; those of a named acquisition start with its name.
+    pub draws: Vec<Draw>,
+}
+
+/// All views that the dataset has of one scene (an index into [`RenderSpec::scenes`]).
+pub fn views(spec: &RenderSpec, dataset: &DatasetSpec, scene: usize, summary: &SceneSummary) -> Vec<DrawnView> {
+    let of_scene = dataset.views.iter().enumerate().filter(|(_, view)| view.scene == scene);
+    let passes: Vec<&PassSpec> = dataset.passes.iter().map(|&pass| &spec.passes[pass]).collect();
+    let outputs: Vec<Vec<OutputDemand>> = passes.iter().map(|pass| outputs(pass, spec, dataset, summary)).collect();
+    of_scene.map(|(index, view)| drawn_view(index, view, spec, dataset, summary, &passes, &outputs)).collect()
+}
+
+fn drawn_view(
+    index: usize,
+    view: &ViewSpec,
+    spec: &RenderSpec,
+    dataset: &DatasetSpec,
+    summary: &SceneSummary,
+    passes: &[&PassSpec],
+    outputs: &[Vec<OutputDemand>],
+) -> DrawnView {
+    let seed = Seed::root(spec.scenes[view.scene].seed).named("view").named(&view.camera.name);
+    let seed = seed.part(u64::from(view.number));
+    let mut acquisitions: Vec<Option<&AcquisitionSpec>> = Vec::new();
+    for pass in passes {
+        if !acquisitions.contains(&pass.acquisition.as_ref()) {
+            acquisitions.push(pass.acquisition.as_ref());
+        }
+    }
+    let mut draws = Vec::new();
+    let mut demands = Vec::new();
+    for acquisition in acquisitions {
+        let mut drawer = Drawer { seed, acquisition, draws: &mut draws };
+        let camera = camera(&view.camera, summary, &mut drawer);
+        let sun = sun(&dataset.sun, &mut drawer);
+        let own = passes.iter().zip(outputs).filter(|(pass, _)| pass.acquisition.as_ref() == acquisition);
+        let outputs: Vec<OutputDemand> = own.flat_map(|(_, outputs)| outputs.iter().cloned()).collect();
+        let lit = outputs.iter().any(|output| output.output == Output::Color);
+        demands.push(ViewDemand {
+            name: view.name.clone(),
+            camera,
+            sun: lit.then_some(sun),
+            quality: Quality {
+                supersample: dataset.quality.supersample,
+                shadow_map: dataset.quality.shadow_map,
+                shadow_samples: dataset.quality.shadow_samples,
+            },
+            outputs,
+        });
+    }
+    DrawnView { view: index, name: view.name.clone(), demands, draws }
+}
+
+/// Draws properties of one view in one acquisition and writes them down.
+pub(super) struct Drawer<'a> {
+    seed: Seed,
+    acquisition: Option<&'a AcquisitionSpec>,
+    draws: &'a mut Vec<Draw>,
+}
+
+impl Drawer<'_> {
+    /// The value of a property; `path` starts with `camera.` or `sun.`.
+    pub fn draw(&mut self, path: &str, distribution: &Distribution) -> f64 {
+        let seed = match self.redrawn_by(path) {
+            Some(acquisition) => self.seed.named("acquisition").named(&acquisition.name),
+            None => self.seed,
+        };
+        let value = distribution.draw(seed.named(path));
+        self.record(path, value);
+        value
+    }
+
+    /// Writes down a value that follows from draws.
+    pub fn record(&mut self, path: &str, value: f64) {
+        let path = match self.redrawn_by(path) {
+            Some(acquisition) => format!("{}.{path}", acquisition.name),
+            None => path.to_owned(),
+        };
+        let draw = Draw { path, value };
+        // Acquisitions that share a property meet it again, with the same value.
+        if !self.draws.contains(&draw) {
+            self.draws.push(draw);
+        }
+    }
+
+    /// The acquisition, if it draws this property anew.
+    fn redrawn_by(&self, path: &str) -> Option<&AcquisitionSpec> {
+        self.acquisition.filter(|acquisition| if path.starts_with("sun.") { acquisition.sun } else { acquisition.camera })
+    }
+}
+
+/// The camera of a view, looking at the scene's centre from the drawn direction and distance.
+fn camera(spec: &CameraSpec, summary: &SceneSummary, drawer: &mut Drawer) -> Camera {
+    let off_nadir = drawer.draw("camera.off_nadir", &spec.off_nadir);
+    let azimuth = drawer.draw("camera.azimuth", &spec.azimuth);
+    let heading = drawer.draw("camera.heading", &spec.heading);
+    let (right, up, forward) = frame(off_nadir, azimuth, heading);
+    let (distance, projection) = lens(spec, summary, drawer);
+    let position = summary.centre - forward * distance;
+    Camera {
+        position,
+        right,
+        up,
+        forward,
+        projection,
+        width: spec.width,
+        height: spec.height,
+        near: near(position, forward, summary),
+    }
+}
+
+/// Right, up and forward of a camera that stands `azimuth` degrees clockwise from north of its target, `off_nadir`
+/// degrees from the vertical above it, with the plan direction `heading` at the top of the image.
+///
+/// Nadir is no special case: the top is a direction of the plan, made perpendicular to the line of sight.
+pub fn frame(off_nadir: f64, azimuth: f64, heading: f64) -> (DVec3, DVec3, DVec3) {
+    let (aside, above) = libm::sincos(off_nadir.to_radians());
+    let (east, north) = libm::sincos(azimuth.to_radians());
+    let forward = -DVec3::new(aside * east, above, -aside * north).normalize();
+    let (east, north) = libm::sincos(heading.to_radians());
+    let top = DVec3::new(east, 0.0, -north);
+    let up = (top - forward * top.dot(forward)).normalize();
+    (forward.cross(up).normalize(), up, forward)
+}
+
+/// Distance from the target and projection, by `width · gsd = 2 · distance · tan(fov / 2)`.
+fn lens(spec: &CameraSpec, summary: &SceneSummary, drawer: &mut Drawer) -> (f64, Projection) {
+    let width = f64::from(spec.width);
+    let aspect = f64::from(spec.height) / width;
+    let (distance, tan_x) = match &spec.lens {
+        Lens::Orthographic { gsd } => {
+            let gsd = drawer.draw("camera.gsd", gsd);
+            let (low, high) = summary.bounds;
+            // Outside the sphere about the target that holds the scene.
+            let reach = (high - summary.centre).abs().max((low - summary.centre).abs()).length();
+            let half_x = 0.5 * width * gsd;
+            return (reach + 1.0, Projection::Orthographic { half_x, half_y: half_x * aspect });
+        }
+        Lens::GsdFov { gsd, fov } => {
+            let gsd = drawer.draw("camera.gsd", gsd);
+            let tan_x = libm::tan(drawer.draw("camera.fov", fov).to_radians() / 2.0);
+            let distance = width * gsd / (2.0 * tan_x);
+            drawer.record("camera.altitude", distance);
+            (distance, tan_x)
+        }
+        Lens::GsdAltitude { gsd, altitude } => {
+            let gsd = drawer.draw("camera.gsd", gsd);
+            let distance = drawer.draw("camera.altitude", altitude);
+            let tan_x = width * gsd / (2.0 * distance);
+            drawer.record("camera.fov", 2.0 * libm::atan(tan_x).to_degrees());
+            (distance, tan_x)
+        }
+        Lens::FovAltitude { fov, altitude } => {
+            let tan_x = libm::tan(drawer.draw("camera.fov", fov).to_radians() / 2.0);
+            let distance = drawer.draw("camera.altitude", altitude);
+            drawer.record("camera.gsd", 2.0 * distance * tan_x / width);
+            (distance, tan_x)
+        }
+    };
+    (distance, Projection::Perspective { tan_x, tan_y: tan_x * aspect })
+}
+
+/// A little nearer than the nearest corner of the scene's bounds.
+fn near(position: DVec3, forward: DVec3, summary: &SceneSummary) -> f64 {
+    let (low, high) = summary.bounds;
+    let corner = DVec3::select(forward.cmpge(DVec3::ZERO), low, high);
+    (0.99 * (corner - position).dot(forward)).max(LEAST_NEAR)
+}
+
+/// What a pass writes, the same for every view.
+fn outputs(pass: &PassSpec, spec: &RenderSpec, dataset: &DatasetSpec, summary: &SceneSummary) -> Vec<OutputDemand> {
+    let shown = |object: &PlacedObject| visible(object, &pass.state) && member(object, &pass.show, spec);
+    let objects: Arc<[bool]> = summary.objects.iter().map(shown).collect();
+    let marked: Arc<[bool]> = match &pass.mark {
+        Some(mark) => summary.objects.iter().map(|object| shown(object) && member(object, mark, spec)).collect(),
+        None => objects.clone(),
+    };
+    let state = if pass.state == StateSpec::Before { State::Before } else { State::After };
+    let one = |(output, name): &(OutputSpec, String)| {
+        let lit = *output == OutputSpec::Colour;
+        let shadows = pass.shadows.unwrap_or(dataset.effects.shadows);
+        let ambient = pass.ambient.unwrap_or(dataset.effects.ambient);
+        OutputDemand {
+            pass: name.clone(),
+            output: output_of(*output),
+            selection: Selection { state, objects: objects.clone() },
+            marked: (*output == OutputSpec::Mask).then(|| marked.clone()),
+            shadows: if lit { shadows_of(shadows) } else { Shadows::Off },
+            ambient: if lit { ambient_of(ambient) } else { Ambient::Off },
+        }
+    };
+    pass.outputs.iter().map(one).collect()
+}
+
+/// Whether an object is there in a state.
+fn visible(object: &PlacedObject, state: &StateSpec) -> bool {
+    let made = |changes: &[usize]| changes.iter().any(|&change| change + 1 == usize::from(object.change));
+    match (object.presence, state) {
+        (Presence::Both, _) | (Presence::BeforeOnly, StateSpec::Before | StateSpec::Both(_)) => true,
+        (Presence::BeforeOnly, StateSpec::After(changes)) => !made(changes),
+        (Presence::AfterOnly, StateSpec::Before) => false,
+        (Presence::AfterOnly, StateSpec::After(changes) | StateSpec::Both(changes)) => made(changes),
+    }
+}
+
+/// Whether an object belongs to a set.
+fn member(object: &PlacedObject, set: &SetSpec, spec: &RenderSpec) -> bool {
+    match set {
+        SetSpec::All => true,
+        SetSpec::Terrain => object.class == SceneClass::Terrain,
+        SetSpec::Class(class) => object.class == scene_class(*class),
+        SetSpec::Change(change) => usize::from(object.change) == change + 1,
+        SetSpec::Changed => {
+            let change = usize::from(object.change).checked_sub(1).and_then(|change| spec.changes.get(change));
+            change.is_some_and(|change| !change.non_target)
+        }
+        SetSpec::Any(sets) => sets.iter().any(|set| member(object, set, spec)),
+        SetSpec::Every(sets) => sets.iter().all(|set| member(object, set, spec)),
+        SetSpec::Not(set) => !member(object, set, spec),
+    }
+}
+
+fn scene_class(class: FeatureClass) -> SceneClass {
+    match class {
+        FeatureClass::Building | FeatureClass::BuildingPart => SceneClass::Building,
+        FeatureClass::Highway => SceneClass::Highway,
+        FeatureClass::Landuse => SceneClass::Landuse,
+        FeatureClass::Natural => SceneClass::Natural,
+        FeatureClass::Leisure => SceneClass::Leisure,
+        FeatureClass::Water => SceneClass::Water,
+    }
+}
+
+fn output_of(output: OutputSpec) -> Output {
+    match output {
+        OutputSpec::Colour => Output::Color,
+        OutputSpec::Class => Output::Class,
+        OutputSpec::Mask => Output::Mask,
+        OutputSpec::Level => Output::Level,
+        OutputSpec::Instance => Output::Instance,
+        OutputSpec::Depth => Output::Depth,
+    }
+}
+
+fn shadows_of(shadows: ShadowsSpec) -> Shadows {
+    match shadows {
+        ShadowsSpec::Off => Shadows::Off,
+        ShadowsSpec::Hard => Shadows::Hard,
+        ShadowsSpec::Soft => Shadows::Soft,
+    }
+}
+
+fn ambient_of(ambient: AmbientSpec) -> Ambient {
+    match ambient {
+        AmbientSpec::Off => Ambient::Off,
+        AmbientSpec::Constant(radiance) => Ambient::Constant(radiance),
+        AmbientSpec::Sky => Ambient::Sky { zenith: SKY_ZENITH, ground: SKY_GROUND },
+    }
+}
+
+#[cfg(test)]
+mod tests;
