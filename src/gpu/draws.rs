@@ -24,13 +24,7 @@ pub struct DrawList {
 
 /// Gathers the chosen objects that may reach into the half spaces `planes` (`n·p + d ≥ 0`, `p` from `eye`), in the
 /// scene's drawing order. Texture changes split runs only where `by_texture`, or for cut-outs.
-pub fn gather(
-    scene: &GpuScene,
-    objects: &[bool],
-    eye: DVec3,
-    planes: &[(DVec3, f64)],
-    by_texture: bool,
-) -> DrawList {
+pub fn gather(scene: &GpuScene, objects: &[bool], eye: DVec3, planes: &[(DVec3, f64)], by_texture: bool) -> DrawList {
     let visible: Vec<bool> = objects
         .iter()
         .zip(&scene.bounds)

@@ -18,7 +18,8 @@ use crate::plan::resource::ResourceId;
 
 pub fn render(renderer: &mut Renderer, view: &ViewPlan) -> Result<Frame, GpuError> {
     let Renderer { gpu, pipelines, targets, scene, readback, max_tile, passes } = renderer;
-    let scene = scene.as_mut().filter(|scene| fits(scene, view)).ok_or_else(|| GpuError::WrongScene(view.name.clone()))?;
+    let scene =
+        scene.as_mut().filter(|scene| fits(scene, view)).ok_or_else(|| GpuError::WrongScene(view.name.clone()))?;
     check_sizes(gpu, view)?;
     targets.keep(view.resources.iter().map(|r| r.texture));
     let max_tile = (*max_tile).min(gpu.max_texture);
@@ -83,9 +84,8 @@ impl Execution<'_> {
             }
             self.stage(stage, &mut images)?;
         }
-        let image = |(pixels, name): (Option<Pixels>, &str)| {
-            pixels.map(|pixels| Image { pass: name.to_owned(), pixels })
-        };
+        let image =
+            |(pixels, name): (Option<Pixels>, &str)| pixels.map(|pixels| Image { pass: name.to_owned(), pixels });
         Ok(images.into_iter().zip(names.into_values()).filter_map(image).collect())
     }
 
@@ -158,10 +158,10 @@ impl Execution<'_> {
                 let uniform = shade::light_uniform(camera.position, sun.as_ref(), *ambient, light.as_ref());
                 let shadow_map = pass.reads.first().map(|id| &targets[id]);
                 let layouts = &self.pipelines.layouts;
-                let groups = shade::groups(self.gpu, layouts, &uniform, &self.scene.materials, shadow_map);
+                let light = shade::light_group(self.gpu, layouts, &uniform, &self.scene.materials, shadow_map);
                 let filter = shadow_filter(pass);
-                self.draw_tile(draw, tile, sampled, |drawing| {
-                    shade::encode(encoder, drawing, &groups, filter, (target(0), target(1)));
+                self.draw_tile(draw, tile, sampled, true, |drawing| {
+                    shade::encode(encoder, drawing, &light, filter, (target(0), target(1)));
                 });
             }
             PassKind::Resolve { supersample } => {
@@ -171,19 +171,28 @@ impl Execution<'_> {
                 resolve::encode(encoder, gpu, pipelines, *supersample, (radiance, target(0)), area);
             }
             PassKind::Ids { draw } => {
-                self.draw_tile(draw, tile, sampled, |drawing| ids::encode(encoder, drawing, target(0), target(1)));
+                self.draw_tile(draw, tile, sampled, false, |drawing| {
+                    ids::encode(encoder, drawing, target(0), target(1))
+                });
             }
             PassKind::Depth { draw } => {
-                self.draw_tile(draw, tile, sampled, |drawing| depth::encode(encoder, drawing, target(0)));
+                self.draw_tile(draw, tile, sampled, false, |drawing| depth::encode(encoder, drawing, target(0)));
             }
         }
     }
 
-    /// Draws what a tile shows of a selection.
-    fn draw_tile(&self, draw: &DrawSet, tile: Tile, (target, supersample): (&Target, u32), encode: impl FnOnce(&Drawing)) {
+    /// Draws what a tile shows of a selection; textures matter `by_texture`, or only where they have holes.
+    fn draw_tile(
+        &self,
+        draw: &DrawSet,
+        tile: Tile,
+        (target, supersample): (&Target, u32),
+        by_texture: bool,
+        encode: impl FnOnce(&Drawing),
+    ) {
         let camera = &self.view.camera;
         let planes = tile_planes(camera, tile);
-        let list = draws::gather(self.scene, &draw.objects, camera.position, &planes, true);
+        let list = draws::gather(self.scene, &draw.objects, camera.position, &planes, by_texture);
         let uniform = tile_view(camera, self.view.far, tile, target.size, supersample);
         self.draw(&list, &uniform, (tile.width * supersample, tile.height * supersample), encode);
     }

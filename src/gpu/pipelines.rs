@@ -15,7 +15,7 @@ pub fn shader_source(stem: &str) -> &'static str {
     }
     match stem {
         "shadow_map" => joined!("common", "cutout", "shadow_map"),
-        "shade" => joined!("common", "cutout", "shade"),
+        "shade" => joined!("common", "shade"),
         "ids" => joined!("common", "cutout", "ids"),
         "depth" => joined!("common", "cutout", "depth"),
         "resolve" => joined!("resolve"),
@@ -28,7 +28,7 @@ pub struct Layouts {
     pub view: wgpu::BindGroupLayout,
     pub texture: wgpu::BindGroupLayout,
     pub light: wgpu::BindGroupLayout,
-    pub shadow: wgpu::BindGroupLayout,
+    pub shadowed_light: wgpu::BindGroupLayout,
     pub resolve: wgpu::BindGroupLayout,
     pub texture_sampler: wgpu::Sampler,
     pub gather_sampler: wgpu::Sampler,
@@ -57,9 +57,7 @@ impl Pipelines {
                     PipelineKey::Shade { surface, shadow } => {
                         shade::pipeline(gpu, &self.layouts, module, surface, shadow)
                     }
-                    PipelineKey::Resolve { supersample } => {
-                        resolve::pipeline(gpu, &self.layouts, module, supersample)
-                    }
+                    PipelineKey::Resolve { supersample } => resolve::pipeline(gpu, &self.layouts, module, supersample),
                     PipelineKey::Ids { cutout } => ids::pipeline(gpu, &self.layouts, module, cutout),
                     PipelineKey::Depth { cutout } => depth::pipeline(gpu, &self.layouts, module, cutout),
                 };
@@ -101,7 +99,8 @@ pub struct GeometryPipeline<'a> {
     pub fragment: Option<(&'a str, Option<Format>)>,
     /// Attributes besides the position.
     pub attributes: bool,
-    pub groups: &'a [Option<&'a wgpu::BindGroupLayout>],
+    /// Without gaps: pipelines that share a pass then agree on all groups but the last.
+    pub groups: &'a [&'a wgpu::BindGroupLayout],
     pub constants: &'a [(&'a str, f64)],
 }
 
@@ -148,14 +147,11 @@ impl GeometryPipeline<'_> {
     }
 }
 
-pub fn pipeline_layout(
-    gpu: &Gpu,
-    label: &str,
-    groups: &[Option<&wgpu::BindGroupLayout>],
-) -> wgpu::PipelineLayout {
+pub fn pipeline_layout(gpu: &Gpu, label: &str, groups: &[&wgpu::BindGroupLayout]) -> wgpu::PipelineLayout {
+    let groups: Vec<_> = groups.iter().copied().map(Some).collect();
     gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
         label: Some(label),
-        bind_group_layouts: groups,
+        bind_group_layouts: &groups,
         immediate_size: 0,
     })
 }
@@ -171,8 +167,7 @@ impl Layouts {
             let descriptor = wgpu::BindGroupLayoutDescriptor { label: Some(label), entries: &entries };
             gpu.device.create_bind_group_layout(&descriptor)
         };
-        let buffer =
-            |ty| wgpu::BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None };
+        let buffer = |ty| wgpu::BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None };
         let texture = |sample_type| wgpu::BindingType::Texture {
             sample_type,
             view_dimension: wgpu::TextureViewDimension::D2,
@@ -184,11 +179,17 @@ impl Layouts {
         let unfiltered = wgpu::BindingType::Sampler(SamplerBindingType::NonFiltering);
         let materials = buffer(BufferBindingType::Storage { read_only: true });
         let uniform = buffer(BufferBindingType::Uniform);
+        let lighting = [
+            (vertex | fragment, uniform),
+            (vertex, materials),
+            (fragment, texture(TextureSampleType::Depth)),
+            (fragment, unfiltered),
+        ];
         Layouts {
             view: group("view", &[(vertex, uniform)]),
             texture: group("color texture", &[(fragment, filterable), (fragment, filtering)]),
-            light: group("light", &[(vertex | fragment, uniform), (vertex, materials)]),
-            shadow: group("shadow map", &[(fragment, texture(TextureSampleType::Depth)), (fragment, unfiltered)]),
+            light: group("light", &lighting[..2]),
+            shadowed_light: group("shadowed light", &lighting),
             resolve: group("resolve", &[(fragment, filterable), (fragment, filtering)]),
             texture_sampler: texture_sampler(gpu),
             gather_sampler: gpu.device.create_sampler(&wgpu::SamplerDescriptor::default()),

@@ -134,13 +134,9 @@ pub fn tile_planes(camera: &Camera, tile: Tile) -> Vec<(DVec3, f64)> {
             (up - forward * (y0 * tan_y), 0.0),
             (forward * (y1 * tan_y) - up, 0.0),
         ],
-        Projection::Orthographic { half_x, half_y } => vec![
-            near,
-            (right, -x0 * half_x),
-            (-right, x1 * half_x),
-            (up, -y0 * half_y),
-            (-up, y1 * half_y),
-        ],
+        Projection::Orthographic { half_x, half_y } => {
+            vec![near, (right, -x0 * half_x), (-right, x1 * half_x), (up, -y0 * half_y), (-up, y1 * half_y)]
+        }
     }
 }
 

@@ -7,7 +7,7 @@ use crate::gpu::pools::Target;
 use crate::plan::pass::{PipelineKey, Surface};
 
 pub fn pipeline(gpu: &Gpu, layouts: &Layouts, module: &wgpu::ShaderModule, cutout: bool) -> wgpu::RenderPipeline {
-    let groups = [Some(&layouts.view), Some(&layouts.texture)];
+    let groups = [&layouts.view, &layouts.texture];
     GeometryPipeline {
         label: PipelineKey::Depth { cutout }.name(),
         module,
@@ -22,5 +22,5 @@ pub fn pipeline(gpu: &Gpu, layouts: &Layouts, module: &wgpu::ShaderModule, cutou
 
 pub fn encode(encoder: &mut wgpu::CommandEncoder, drawing: &Drawing, depth: &Target) {
     let mut pass = begin(encoder, "depth", None, Some(depth));
-    drawing.record(&mut pass, &[], |surface| PipelineKey::Depth { cutout: surface == Surface::Cutout });
+    drawing.record(&mut pass, None, |surface| PipelineKey::Depth { cutout: surface == Surface::Cutout });
 }

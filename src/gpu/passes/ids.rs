@@ -8,7 +8,7 @@ use crate::plan::pass::{PipelineKey, Surface};
 use crate::plan::resource::Format;
 
 pub fn pipeline(gpu: &Gpu, layouts: &Layouts, module: &wgpu::ShaderModule, cutout: bool) -> wgpu::RenderPipeline {
-    let groups = [Some(&layouts.view), Some(&layouts.texture)];
+    let groups = [&layouts.view, &layouts.texture];
     GeometryPipeline {
         label: PipelineKey::Ids { cutout }.name(),
         module,
@@ -23,5 +23,5 @@ pub fn pipeline(gpu: &Gpu, layouts: &Layouts, module: &wgpu::ShaderModule, cutou
 
 pub fn encode(encoder: &mut wgpu::CommandEncoder, drawing: &Drawing, ids: &Target, depth: &Target) {
     let mut pass = begin(encoder, "ids", Some((ids, wgpu::Color::TRANSPARENT)), Some(depth));
-    drawing.record(&mut pass, &[], |surface| PipelineKey::Ids { cutout: surface == Surface::Cutout });
+    drawing.record(&mut pass, None, |surface| PipelineKey::Ids { cutout: surface == Surface::Cutout });
 }

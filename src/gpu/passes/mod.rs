@@ -24,25 +24,27 @@ pub struct Drawing<'a> {
 }
 
 impl Drawing<'_> {
-    /// Records all runs with the pipeline that `key` names for their surface. `groups` are bound from index 2 on.
+    /// Records all runs with the pipeline that `key` names for their surface. The groups are the view, the light if
+    /// there is one, and the texture of the run.
     fn record(
         &self,
         pass: &mut wgpu::RenderPass,
-        groups: &[&wgpu::BindGroup],
+        light: Option<&wgpu::BindGroup>,
         key: impl Fn(Surface) -> PipelineKey,
     ) {
         pass.set_scissor_rect(0, 0, self.area.0, self.area.1);
         pass.set_bind_group(0, self.view, &[]);
-        for (i, group) in groups.iter().enumerate() {
-            pass.set_bind_group(2 + i as u32, *group, &[]);
+        if let Some(light) = light {
+            pass.set_bind_group(1, light, &[]);
         }
+        let texture_group = if light.is_some() { 2 } else { 1 };
         pass.set_vertex_buffer(0, self.scene.positions.slice(..));
         pass.set_vertex_buffer(1, self.scene.attributes.slice(..));
         pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
         for run in &self.list.runs {
             pass.set_pipeline(self.pipelines.get(key(run.surface)));
             if let Some(texture) = run.texture {
-                pass.set_bind_group(1, self.scene.texture_group(texture), &[]);
+                pass.set_bind_group(texture_group, self.scene.texture_group(texture), &[]);
             }
             pass.draw_indexed(run.indices.clone(), 0, 0..1);
         }

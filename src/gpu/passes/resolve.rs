@@ -13,7 +13,7 @@ pub fn pipeline(gpu: &Gpu, layouts: &Layouts, module: &wgpu::ShaderModule, super
     let options = wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
     gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some(&label),
-        layout: Some(&pipeline_layout(gpu, &label, &[Some(&layouts.resolve)])),
+        layout: Some(&pipeline_layout(gpu, &label, &[&layouts.resolve])),
         vertex: wgpu::VertexState {
             module,
             entry_point: Some("vs_resolve"),

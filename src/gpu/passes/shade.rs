@@ -13,10 +13,10 @@ use crate::plan::light::LightFrame;
 use crate::plan::pass::{PipelineKey, ShadowFilter, Surface};
 use crate::plan::resource::Format;
 
-/// Metres by which receivers are lifted towards the sun against rounding, and the share of a texel for smooth
-/// normals that differ from the plane of their triangle.
-const LIFT_METRES: f64 = 0.02;
-const LIFT_TEXELS: f64 = 0.25;
+/// Distance, metres along the ray, within which a caster's shadow fades in: a constant against rounding, and a share
+/// of a texel for smooth normals that differ from the plane of their triangle.
+const FADE_METRES: f64 = 0.04;
+const FADE_TEXELS: f64 = 0.5;
 
 /// `Light` of `shaders/shade.wgsl`.
 #[repr(C)]
@@ -52,12 +52,12 @@ pub fn light_uniform(camera: DVec3, sun: Option<&Sun>, ambient: Ambient, light: 
     };
     let Some(light) = light else { return unshadowed };
     let range = light.high - light.low;
-    let lift = (LIFT_METRES + LIFT_TEXELS * light.texel.max_element()) / range;
+    let fade = (FADE_METRES + FADE_TEXELS * light.texel.max_element()) / range;
     LightUniform {
         rows: light_rows(light, camera).map(|row| row.map(|c| c as f32)),
         u: vector(light.u, light.texel.x / range),
         v: vector(light.v, light.texel.y / range),
-        sun: vector(direction, lift),
+        sun: vector(direction, 1.0 / fade),
         irradiance: color(irradiance, 1.0 / f64::from(light.size)),
         ..unshadowed
     }
@@ -78,8 +78,8 @@ pub fn pipeline(
         (Surface::Textured, ShadowFilter::Box { gathers }) => ("fs_textured_shadow", Some(gathers)),
         (Surface::Cutout, ShadowFilter::Box { gathers }) => ("fs_cutout_shadow", Some(gathers)),
     };
-    let texture = (surface != Surface::Plain).then_some(&layouts.texture);
-    let groups = [Some(&layouts.view), texture, Some(&layouts.light), Some(&layouts.shadow)];
+    let light = if gathers.is_some() { &layouts.shadowed_light } else { &layouts.light };
+    let groups = [&layouts.view, light, &layouts.texture];
     let constants = gathers.map(|g| ("GATHERS", f64::from(g)));
     GeometryPipeline {
         label: PipelineKey::Shade { surface, shadow }.name(),
@@ -87,49 +87,41 @@ pub fn pipeline(
         vertex: "vs_shade",
         fragment: Some((entry, Some(Format::Radiance16))),
         attributes: true,
-        groups: if gathers.is_some() { &groups } else { &groups[..3] },
+        groups: if surface == Surface::Plain { &groups[..2] } else { &groups },
         constants: constants.as_slice(),
     }
     .create(gpu)
 }
 
-/// Bind groups of the light and, if there is one, of the shadow map.
-pub fn groups(
+/// Bind group of the light with, if there is one, the shadow map.
+pub fn light_group(
     gpu: &Gpu,
     layouts: &Layouts,
     uniform: &LightUniform,
     materials: &wgpu::Buffer,
     shadow_map: Option<&Target>,
-) -> Vec<wgpu::BindGroup> {
+) -> wgpu::BindGroup {
     let buffer = gpu.uniform("light", uniform);
-    let group = |label: &str, layout: &wgpu::BindGroupLayout, resources: [wgpu::BindingResource; 2]| {
-        let [first, second] = resources;
-        let entries = [
-            wgpu::BindGroupEntry { binding: 0, resource: first },
-            wgpu::BindGroupEntry { binding: 1, resource: second },
-        ];
-        let descriptor = wgpu::BindGroupDescriptor { label: Some(label), layout, entries: &entries };
-        gpu.device.create_bind_group(&descriptor)
-    };
-    let mut groups =
-        vec![group("light", &layouts.light, [buffer.as_entire_binding(), materials.as_entire_binding()])];
+    let mut resources = vec![buffer.as_entire_binding(), materials.as_entire_binding()];
     if let Some(target) = shadow_map {
-        let view = wgpu::BindingResource::TextureView(&target.view);
-        let sampler = wgpu::BindingResource::Sampler(&layouts.gather_sampler);
-        groups.push(group("shadow map", &layouts.shadow, [view, sampler]));
+        resources.push(wgpu::BindingResource::TextureView(&target.view));
+        resources.push(wgpu::BindingResource::Sampler(&layouts.gather_sampler));
     }
-    groups
+    let entry = |(i, resource)| wgpu::BindGroupEntry { binding: i as u32, resource };
+    let entries: Vec<_> = resources.into_iter().enumerate().map(entry).collect();
+    let layout = if shadow_map.is_some() { &layouts.shadowed_light } else { &layouts.light };
+    let descriptor = wgpu::BindGroupDescriptor { label: Some("light"), layout, entries: &entries };
+    gpu.device.create_bind_group(&descriptor)
 }
 
 pub fn encode(
     encoder: &mut wgpu::CommandEncoder,
     drawing: &Drawing,
-    groups: &[wgpu::BindGroup],
+    light: &wgpu::BindGroup,
     shadow: ShadowFilter,
     (radiance, depth): (&Target, &Target),
 ) {
     let [r, g, b] = BACKGROUND;
     let mut pass = begin(encoder, "shade", Some((radiance, wgpu::Color { r, g, b, a: 1.0 })), Some(depth));
-    let groups: Vec<&wgpu::BindGroup> = groups.iter().collect();
-    drawing.record(&mut pass, &groups, |surface| PipelineKey::Shade { surface, shadow });
+    drawing.record(&mut pass, Some(light), |surface| PipelineKey::Shade { surface, shadow });
 }

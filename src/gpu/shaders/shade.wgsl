@@ -14,7 +14,7 @@ struct Light {
     // Axes of the light frame; w of u, v: change of depth per texel for a slope of 1.
     u: vec4<f32>,
     v: vec4<f32>,
-    // Towards the sun; w: depth by which a receiver is lifted.
+    // Towards the sun; w: 1 / depth over which light fades in, so that rounding flips no sample.
     sun: vec4<f32>,
     // Irradiance of a surface facing the sun; w: 1 / texels per side.
     irradiance: vec4<f32>,
@@ -22,11 +22,13 @@ struct Light {
     ground: vec4<f32>,
 };
 
-@group(2) @binding(0) var<uniform> light: Light;
+@group(1) @binding(0) var<uniform> light: Light;
 // Linear colour of each material.
-@group(2) @binding(1) var<storage, read> materials: array<vec4<f32>>;
-@group(3) @binding(0) var shadow_map: texture_depth_2d;
-@group(3) @binding(1) var gather_sampler: sampler;
+@group(1) @binding(1) var<storage, read> materials: array<vec4<f32>>;
+@group(1) @binding(2) var shadow_map: texture_depth_2d;
+@group(1) @binding(3) var gather_sampler: sampler;
+@group(2) @binding(0) var color_texture: texture_2d<f32>;
+@group(2) @binding(1) var color_sampler: sampler;
 
 struct Vertex {
     @location(0) position: vec3<f32>,
@@ -47,8 +49,8 @@ struct Corner {
     @location(4) slope: vec2<f32>,
 };
 
-// Steepest slope of a receiver against the light that is followed; beyond it the cosine dims the sun to 5 %.
-const LEAST_COSINE: f32 = 0.05;
+// Steepest slope of a receiver against the light that is followed; beyond it the cosine dims the sun to 0.5 %.
+const LEAST_COSINE: f32 = 0.005;
 
 @vertex
 fn vs_shade(vertex: Vertex) -> Corner {
@@ -64,7 +66,7 @@ fn vs_shade(vertex: Vertex) -> Corner {
     corner.sky = albedo * mix(light.ground.rgb, light.zenith.rgb, 0.5 + 0.5 * normal.y);
     corner.sun = albedo * light.irradiance.rgb * max(cosine, 0.0);
     corner.uv = vertex.uv;
-    corner.shadow = vec3<f32>(dot(light.texel_u, p), dot(light.texel_v, p), dot(light.depth, p) + light.sun.w);
+    corner.shadow = vec3<f32>(dot(light.texel_u, p), dot(light.texel_v, p), dot(light.depth, p));
     let run = vec2<f32>(dot(normal, light.u.xyz) * light.u.w, dot(normal, light.v.xyz) * light.v.w);
     corner.slope = -run / max(cosine, LEAST_COSINE);
     return corner;
@@ -87,7 +89,7 @@ fn lit_share(at: vec3<f32>, slope: vec2<f32>) -> f32 {
             // Gather order: (0, 1), (1, 1), (1, 0), (0, 0).
             let corner = plane + dot(slope, texel);
             let expected = vec4<f32>(corner + slope.y, corner + slope.x + slope.y, corner + slope.x, corner);
-            let open = select(vec4<f32>(0.0), vec4<f32>(1.0), stored <= expected);
+            let open = saturate((expected - stored) * light.sun.w + 1.0);
             let low = select(vec2<f32>(1.0), 1.0 - part, vec2<bool>(i == 0u, j == 0u));
             let high = select(vec2<f32>(1.0), part, vec2<bool>(i + 1u == GATHERS, j + 1u == GATHERS));
             sum += high.y * (low.x * open.x + high.x * open.y) + low.y * (low.x * open.w + high.x * open.z);
@@ -121,7 +123,7 @@ fn fs_textured_shadow(corner: Corner) -> @location(0) vec4<f32> {
 @fragment
 fn fs_cutout(corner: Corner) -> @location(0) vec4<f32> {
     let texel = textureSample(color_texture, color_sampler, corner.uv);
-    if is_hole(texel.a) {
+    if texel.a < 0.5 {
         discard;
     }
     return vec4<f32>(texel.rgb * (corner.sky + corner.sun), 1.0);
@@ -130,7 +132,7 @@ fn fs_cutout(corner: Corner) -> @location(0) vec4<f32> {
 @fragment
 fn fs_cutout_shadow(corner: Corner) -> @location(0) vec4<f32> {
     let texel = textureSample(color_texture, color_sampler, corner.uv);
-    if is_hole(texel.a) {
+    if texel.a < 0.5 {
         discard;
     }
     return vec4<f32>(texel.rgb * (corner.sky + corner.sun * lit_share(corner.shadow, corner.slope)), 1.0);
