@@ -88,7 +88,10 @@ pub struct ReportRecord {
 pub struct ChangeRecord {
     pub name: String,
     pub non_target: bool,
+    /// Map objects that the change could have drawn.
     pub candidates: usize,
+    /// The share that was drawn, 0..1.
+    pub share: f64,
     /// Map ids and instance numbers of the changed features, with their level.
     pub changed: Vec<ChangedFeature>,
 }
@@ -116,7 +119,8 @@ pub struct ViewRecord {
 /// Camera and sun of one acquisition, as used.
 #[derive(Clone, Debug, Serialize)]
 pub struct AcquisitionRecord {
-    pub name: String,
+    /// Names of the images taken with it.
+    pub images: Vec<String>,
     pub width: u32,
     pub height: u32,
     /// Metres in the local frame: x east, y up, z south.

@@ -6,17 +6,17 @@ use super::place::{Place, place};
 use super::progress::Progress;
 use super::recipe::Recipe;
 use super::record::{Reports, geometry_hash};
-use super::selection::changes;
 use super::textures;
 use crate::dataset::manifest::{ChangeRecord, ChangedFeature, SceneRecord};
 use crate::diagnostics::Diagnostics;
 use crate::geodata::ledger::{Ledger, Outcome};
 use crate::geodata::projection::LocalFrame;
 use crate::geodata::terrain::Terrain;
-use crate::interpreter::seed::Seed;
+use crate::plan::change::draw_changes;
+use crate::geometry::Polygon;
 use crate::scene::Scene;
 use crate::scene::assemble::{FeatureParts, TERRAIN_INSTANCE, assemble, ground_layers};
-use crate::scene::ground::ground_mesh;
+use crate::scene::ground::build_ground;
 
 /// Greatest vertical distance allowed between the ground mesh and the elevation data, metres.
 pub const TERRAIN_TOLERANCE_M: f64 = 0.5;
@@ -41,19 +41,20 @@ pub fn build_scene(recipe: &Recipe, index: usize, progress: &dyn Progress) -> Re
 
     // Draw what changes.
     let assigned = assign(&spec.rules, &place.features);
-    let has_rules: Vec<bool> = assigned.iter().map(Option::is_some).collect();
-    let drawn = changes(&recipe.spec.changes, &place.features, &has_rules, Seed::root(spec.seed));
+    let candidates: Vec<_> = place.features.iter().map(|f| (f.id, f.class, &f.tags)).collect();
+    let (touched, drawn) = draw_changes(&recipe.spec, spec, &candidates);
 
     // Derive every feature in every state.
     let assets = recipe.assets();
-    let derived = derive_features(recipe, spec, &place, (&assigned, &drawn), &assets, progress);
+    let derived = derive_features(recipe, spec, &place, (&assigned, &touched), &assets, progress);
 
     // Lay the ground under them and put everything together.
     progress.begin("scene", None);
     let layers = ground_layers(&derived.features);
-    let ground = ground_mesh(&place.area, &place.terrain, TERRAIN_TOLERANCE_M, &layers)
+    let area = Polygon { outer: place.area.clone(), holes: Vec::new() };
+    let ground = build_ground(&area, &place.terrain, TERRAIN_TOLERANCE_M, &layers)
         .map_err(|source| PipelineError::Ground { scene: spec.name.clone(), source })?;
-    let changed = change_records(recipe, &derived.features, &drawn.candidates);
+    let changed = change_records(recipe, &derived.features, &drawn);
     let mut scene = assemble(derived.features, &ground);
     let textures = textures::load(&scene.materials, &recipe.access)?;
     scene.textures = textures.images;
@@ -62,7 +63,7 @@ pub fn build_scene(recipe: &Recipe, index: usize, progress: &dyn Progress) -> Re
     for missing in textures.missing {
         ledger.record(format!("texture {missing}"), Outcome::FellBack("drawn without texture".to_owned()));
     }
-    let record = record(&scene, spec.name.clone(), spec.seed, &frame, ground.worst_error, changed, derived.reports, ledger, features.len());
+    let record = record(&scene, spec.name.clone(), spec.seed, &frame, ground.worst_error_m, changed, derived.reports, ledger, features.len());
     progress.end(&format!("{} triangles", record.triangles));
     Ok(BuiltScene { scene, frame, terrain, record, diagnostics: derived.diagnostics, prints: derived.prints })
 }
@@ -94,16 +95,21 @@ fn record(
     }
 }
 
-fn change_records(recipe: &Recipe, features: &[FeatureParts], candidates: &[usize]) -> Vec<ChangeRecord> {
+fn change_records(
+    recipe: &Recipe,
+    features: &[FeatureParts],
+    drawn: &[crate::plan::change::ChangeRecord],
+) -> Vec<ChangeRecord> {
     let mut records: Vec<ChangeRecord> = recipe
         .spec
         .changes
         .iter()
-        .zip(candidates)
-        .map(|(change, &candidates)| ChangeRecord {
+        .zip(drawn)
+        .map(|(change, drawn)| ChangeRecord {
             name: change.name.clone(),
             non_target: change.non_target,
-            candidates,
+            candidates: drawn.candidates,
+            share: drawn.share,
             changed: Vec::new(),
         })
         .collect();

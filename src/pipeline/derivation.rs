@@ -2,33 +2,31 @@
 //! has something to show, the ledger, the reports and the mistakes met while deriving. Parallel; order and results do not
 //! depend on the number of threads.
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 use rayon::prelude::*;
 
+use super::lot::Lot;
 use super::place::Place;
 use super::progress::Progress;
 use super::recipe::Recipe;
 use super::record::Reports;
-use super::selection::{Changes, Touched};
 use crate::diagnostics::{Diagnostics, Severity};
 use crate::geodata::feature::{Feature, FeatureClass, Outline};
-use crate::geodata::features::road::{Ribbon, ribbon};
+use crate::geodata::features::ribbon::{Cap, caps};
 use crate::geodata::ledger::{Ledger, Outcome};
 use crate::geodata::tags::{self, Defaults, TagValue};
-use crate::geometry::{Face, Mesh, Polygon};
 use crate::interpreter::assets::Assets;
 use crate::interpreter::limits::Limits;
 use crate::interpreter::seed::Seed;
-use crate::interpreter::tree::{Leaf, Scalar, ShapeTree};
+use crate::interpreter::tree::{Scalar, ShapeTree};
 use crate::interpreter::{StartShape, derive};
+use crate::plan::change::Changed;
 use crate::scene::assemble::{FeatureParts, StateParts};
-use crate::scene::parts::{Parts, Stand, has_flat_face, parts};
 use crate::scene::{Presence, SceneClass};
 use crate::spec::render_spec::{
-    AttributeValue, ChangeSpec, DrawnValue, LevelEffect, RuleAssignment, SceneSpec, ValueSpec,
+    AttributeValue, DrawnValue, LevelEffect, RuleAssignment, SceneSpec, ValueSpec,
 };
 
 /// What derivation gives.
@@ -72,7 +70,7 @@ pub fn derive_features(
     recipe: &Recipe,
     scene: &SceneSpec,
     place: &Place,
-    (assigned, changes): (&[Option<usize>], &Changes),
+    (assigned, touched): (&[Option<usize>], &[Option<Changed>]),
     assets: &dyn Assets,
     progress: &dyn Progress,
 ) -> Derivation {
@@ -89,9 +87,10 @@ pub fn derive_features(
     let derived: Vec<Derived> = place
         .features
         .par_iter()
-        .zip(assigned.par_iter().zip(&changes.touched))
-        .map(|(feature, (rule, touched))| {
-            let derived = context.feature(feature, *rule, *touched);
+        .zip(road_ends(&place.features))
+        .zip(assigned.par_iter().zip(touched))
+        .map(|((feature, ends), (rule, touched))| {
+            let derived = context.feature(feature, ends, *rule, *touched);
             progress.step(1);
             derived
         })
@@ -120,6 +119,16 @@ pub fn derive_features(
     out
 }
 
+/// The ends of every feature's ribbon; only roads' are used.
+fn road_ends(features: &[Feature]) -> Vec<[Cap; 2]> {
+    let line = |f: &Feature| match &f.outline {
+        Outline::Line(line) => line.clone(),
+        Outline::Area(_) => Vec::new(),
+    };
+    let lines: Vec<Vec<DVec2>> = features.iter().map(line).collect();
+    caps(&lines.iter().map(Vec::as_slice).collect::<Vec<_>>())
+}
+
 fn scene_class(class: FeatureClass) -> SceneClass {
     match class {
         FeatureClass::Building | FeatureClass::BuildingPart => SceneClass::Building,
@@ -132,16 +141,25 @@ fn scene_class(class: FeatureClass) -> SceneClass {
 }
 
 impl Context<'_> {
-    fn feature(&self, feature: &Feature, rule: Option<usize>, touched: Option<Touched>) -> Derived {
+    fn feature(
+        &self,
+        feature: &Feature,
+        ends: [Cap; 2],
+        rule: Option<usize>,
+        touched: Option<Changed>,
+    ) -> Derived {
         let mut out = Derived::default();
         let Some(rule) = rule else {
             let reason = "no rule of the recipe is for it".to_owned();
             out.ledger.record(feature.id, Outcome::Skipped(reason));
             return out;
         };
-        let Some(lot) = Lot::new(feature, self.place) else {
-            out.ledger.record(feature.id, Outcome::Skipped("it has no area in the scene".to_owned()));
-            return out;
+        let lot = match Lot::new(feature, ends, &self.place.terrain) {
+            Ok(lot) => lot,
+            Err(why) => {
+                out.ledger.record(feature.id, Outcome::Skipped(why));
+                return out;
+            }
         };
         let own = &self.scene.rules[rule];
         let mut outcome = Outcome::Ok;
@@ -154,30 +172,13 @@ impl Context<'_> {
                 if !matches!(effect, LevelEffect::Built) {
                     self.state(feature, &lot, own, key(Presence::BeforeOnly), &mut out, &mut outcome);
                 }
-                if let Some(after) = self.after(feature, own, change, effect) {
+                if let Some(after) = after(feature, own, effect) {
                     self.state(feature, &lot, after, key(Presence::AfterOnly), &mut out, &mut outcome);
                 }
             }
         }
         out.ledger.record(feature.id, outcome);
         out
-    }
-
-    /// The rules of the state *after*; `None` where the feature is gone.
-    fn after<'a>(
-        &self,
-        feature: &Feature,
-        own: &'a RuleAssignment,
-        _change: &ChangeSpec,
-        effect: &'a LevelEffect,
-    ) -> Option<&'a RuleAssignment> {
-        match effect {
-            LevelEffect::Rules(rules) => {
-                rules.iter().find(|r| r.filter.matches(feature.class, &feature.tags, feature.id)).or(Some(own))
-            }
-            LevelEffect::Demolished => None,
-            LevelEffect::Built => Some(own),
-        }
     }
 
     /// Derives one state and adds what it gives.
@@ -197,10 +198,12 @@ impl Context<'_> {
             start_rule: rule.start.clone(),
             attributes,
             seed: self.seed.named(&feature.id.to_string()),
+            name: feature.id.to_string().into(),
         };
         let tree = derive(self.recipe.programs.get(&rule.file), &start, self.assets, &self.limits);
-        if let Some(error) = tree.diagnostics.iter().find(|d| d.severity == Severity::Error) {
-            *outcome = Outcome::Skipped(format!("its rules failed: {}", error.message));
+        let failed = tree.diagnostics.iter().find(|d| d.severity == Severity::Error);
+        if let Some(why) = failed.map(|d| format!("its rules failed: {}", d.message)) {
+            *outcome = Outcome::Skipped(why);
             out.diagnostics.extend(tree.diagnostics);
             return;
         }
@@ -256,6 +259,17 @@ impl Context<'_> {
             }
         }
         list
+    }
+}
+
+/// The rules of the state *after*; `None` where the feature is gone.
+fn after<'a>(feature: &Feature, own: &'a RuleAssignment, effect: &'a LevelEffect) -> Option<&'a RuleAssignment> {
+    match effect {
+        LevelEffect::Rules(rules) => {
+            rules.iter().find(|r| r.filter.matches(feature.class, &feature.tags, feature.id)).or(Some(own))
+        }
+        LevelEffect::Demolished => None,
+        LevelEffect::Built => Some(own),
     }
 }
 

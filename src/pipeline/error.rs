@@ -7,6 +7,7 @@ use crate::diagnostics::Diagnostics;
 use crate::geodata::elevation::ElevationError;
 use crate::geodata::map::MapError;
 use crate::geodata::projection::ProjectionError;
+use crate::geodata::terrain::TerrainError;
 use crate::gpu::GpuError;
 use crate::output::OutputError;
 use crate::scene::export::ExportError;
@@ -24,6 +25,8 @@ pub enum PipelineError {
     Map(#[from] MapError),
     #[error(transparent)]
     Elevation(#[from] ElevationError),
+    #[error(transparent)]
+    Terrain(#[from] TerrainError),
     #[error(transparent)]
     Projection(#[from] ProjectionError),
     #[error("{0}: the map has no building, road or bounds to take the scene's area from; name an area in the recipe")]

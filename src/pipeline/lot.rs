@@ -4,10 +4,12 @@
 use glam::{DVec2, DVec3};
 
 use crate::geodata::feature::{Feature, FeatureClass, Outline};
-use crate::geodata::features::road::ribbon;
+use crate::geodata::features::ribbon::{Cap, ribbon};
+use crate::geodata::tags::road_width;
 use crate::geodata::terrain::Terrain;
 use crate::geometry::{Face, Mesh, Polygon};
 use crate::interpreter::tree::Leaf;
+use crate::scene::ground::Surface;
 use crate::scene::parts::{Parts, Stand, has_flat_face, parts};
 
 /// How far walls go on below the base on uneven ground, metres: more than the ground mesh's usual tolerance.
@@ -32,14 +34,16 @@ pub struct Lot {
 }
 
 impl Lot {
-    /// `None` if the feature covers no area.
-    pub fn new(feature: &Feature, terrain: &Terrain) -> Option<Lot> {
+    /// `caps` are the ends of a road's ribbon. Says why where there is no lot.
+    pub fn new(feature: &Feature, caps: [Cap; 2], terrain: &Terrain) -> Result<Lot, String> {
         let polygons = match &feature.outline {
             Outline::Area(polygon) => vec![polygon.clone()],
-            Outline::Line(line) => ribbon(feature, line),
+            Outline::Line(line) => {
+                ribbon(line, road_width(&feature.tags).metres, caps).map_err(|e| format!("no surface: {e}"))?
+            }
         };
         if polygons.iter().all(|p| p.outer.len() < 3) {
-            return None;
+            return Err("it covers no area".to_owned());
         }
         let (least, mean) = heights(&polygons, terrain);
         let building = matches!(feature.class, FeatureClass::Building | FeatureClass::BuildingPart);
@@ -48,14 +52,14 @@ impl Lot {
         } else if let Some(deck) = deck(feature, terrain, mean) {
             (mean, deck)
         } else {
-            (mean, Stand::Draped { priority: priority(feature, &polygons), lift: 0.0 })
+            (mean, Stand::Draped { priority: priority(feature, &polygons), surface: surface(feature), lift: 0.0 })
         };
-        Some(Lot { mesh: mesh(&polygons, base), base, polygons, stand, rise: mean - least })
+        Ok(Lot { mesh: mesh(&polygons, base), base, polygons, stand, rise: mean - least })
     }
 
     /// Sorts the leaves of a derivation. Leaves with flat faces on a building's footprint, such as ash, drape it.
     pub fn parts(&self, leaves: &[Leaf]) -> Parts {
-        let draped = Stand::Draped { priority: FOOTPRINT, lift: self.rise };
+        let draped = Stand::Draped { priority: FOOTPRINT, surface: Surface::Drape, lift: self.rise };
         let level = matches!(self.stand, Stand::Level { .. });
         let stand = if level && has_flat_face(leaves, self.base) { &draped } else { &self.stand };
         let nothing = Polygon::default();
@@ -63,12 +67,13 @@ impl Lot {
     }
 }
 
-/// Least and mean ground height along the outlines, metres.
+/// Least ground height under the outlines and mean height at their corners, metres; 0 where the ground is not known.
 fn heights(polygons: &[Polygon], terrain: &Terrain) -> (f64, f64) {
-    let least = polygons.iter().map(|p| terrain.least_under(p)).fold(f64::INFINITY, f64::min);
-    let corners: Vec<DVec2> = polygons.iter().flat_map(Polygon::rings).flatten().copied().collect();
-    let mean = corners.iter().map(|p| terrain.height(p.x, p.y)).sum::<f64>() / corners.len() as f64;
-    (least, mean.max(least))
+    let least = polygons.iter().filter_map(|p| terrain.extremes_under(p)).map(|(least, _)| least);
+    let least = least.reduce(f64::min).unwrap_or(0.0);
+    let corners = polygons.iter().flat_map(Polygon::rings).flatten().filter_map(|p| terrain.height(*p));
+    let (sum, count) = corners.fold((0.0, 0u32), |(sum, count), h| (sum + h, count + 1));
+    (least, if count == 0 { least } else { (sum / f64::from(count)).max(least) })
 }
 
 fn mesh(polygons: &[Polygon], base: f64) -> Mesh {
@@ -94,8 +99,19 @@ fn deck(feature: &Feature, terrain: &Terrain, base: f64) -> Option<Stand> {
     let layer = feature.tags.get("layer").and_then(|l| l.parse::<f64>().ok()).unwrap_or(1.0).clamp(1.0, 5.0);
     // A deck lies a little above the street it carries on, so that it covers what passes under it.
     let lift = 0.15 * layer;
-    let height = |p: DVec2| terrain.height(p.x, p.y) - base + lift;
+    let height = |p: DVec2| terrain.height(p).unwrap_or(base) - base + lift;
     bridge.then(|| Stand::Deck { from, to, heights: [height(from), height(to)] })
+}
+
+/// Standing water is level; rivers and streams, and everything else, follow the ground.
+fn surface(feature: &Feature) -> Surface {
+    let running = ["river", "stream", "canal", "ditch", "drain", "riverbank", "waterfall"];
+    let kind = feature.tags.get("water").or_else(|| feature.tags.get("waterway"));
+    if feature.class == FeatureClass::Water && !kind.is_some_and(|k| running.contains(&&**k)) {
+        Surface::Level
+    } else {
+        Surface::Drape
+    }
 }
 
 fn priority(feature: &Feature, polygons: &[Polygon]) -> i32 {

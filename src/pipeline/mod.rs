@@ -6,14 +6,15 @@
 mod build;
 mod derivation;
 mod error;
+mod lot;
 mod place;
 mod progress;
 mod recipe;
 mod record;
 mod render;
 mod rules;
-mod selection;
 pub mod shipped;
+mod single;
 mod textures;
 mod views;
 
@@ -22,4 +23,5 @@ pub use error::PipelineError;
 pub use progress::{Progress, Silent};
 pub use recipe::{Recipe, RecipeOptions, load_recipe};
 pub use render::{RenderOptions, RenderSummary, render_dataset};
-pub use views::{PlannedDataset, plan_views};
+pub use single::single_scene;
+pub use views::{PlannedRecipe, plan_views};

@@ -7,13 +7,14 @@ use glam::DVec2;
 use super::error::PipelineError;
 use super::progress::Progress;
 use super::recipe::Recipe;
-use crate::geodata::elevation::Raster;
+use crate::geodata::elevation;
 use crate::geodata::feature::Feature;
 use crate::geodata::ledger::Ledger;
 use crate::geodata::map::{Area, LonLatBox, extent, extract, read_map};
 use crate::geodata::projection::LocalFrame;
-use crate::geodata::terrain::Terrain;
-use crate::geometry::Ring;
+use crate::geodata::terrain::{Terrain, Voids};
+use crate::geometry::{Polygon, Ring};
+use crate::source::AccessError;
 use crate::spec::render_spec::{AreaSpec, FileRef, SceneSpec};
 
 /// Everything the map and the elevation say about one scene.
@@ -51,11 +52,42 @@ pub fn place(recipe: &Recipe, scene: &SceneSpec, progress: &dyn Progress) -> Res
     progress.end(&format!("{} features", features.len()));
 
     progress.begin("elevation", None);
-    let rasters = resolve(&scene.elevations)?.iter().map(|p| Raster::read(p, None)).collect::<Result<Vec<_>, _>>()?;
-    let terrain =
-        if rasters.is_empty() { Terrain::flat() } else { Terrain::new(rasters, frame, &ring, &mut ledger)? };
+    let terrain = terrain(&resolve(&scene.elevations)?, frame, &ring, &mut ledger)?;
     progress.end(&format!("{} files", scene.elevations.len()));
     Ok(Place { frame, area: ring, features, terrain, ledger })
+}
+
+/// The ground under the scene; voids are filled, and counted in the ledger.
+fn terrain(
+    files: &[PathBuf],
+    frame: LocalFrame,
+    area: &Ring,
+    ledger: &mut Ledger,
+) -> Result<Terrain, PipelineError> {
+    if files.is_empty() {
+        ledger.assume("elevation: none given, flat ground");
+        return Ok(Terrain::flat());
+    }
+    let outline = Polygon { outer: area.clone(), holes: Vec::new() };
+    let (lo, hi) = outline.bounds().expect("an area has corners");
+    let window = Terrain::area(&frame, lo, hi);
+    let mut rasters = Vec::new();
+    for path in files {
+        let bytes = std::fs::read(path).map_err(|source| AccessError::Io { path: path.display().to_string(), source })?;
+        rasters.push(elevation::read(&path.display().to_string(), &bytes, Some(window), None)?);
+    }
+    let terrain = Terrain::from_rasters(frame, lo, hi, rasters, Voids::Fill)?;
+    let report = terrain.report();
+    for (what, cells) in [
+        ("elevation: voids filled from another file", report.filled_from_other_raster),
+        ("elevation: voids filled from neighbours", report.filled_from_neighbours),
+        ("elevation: implausible heights taken as voids", report.undeclared),
+    ] {
+        if cells > 0 {
+            *ledger.assumptions.entry(what.to_owned()).or_default() += cells;
+        }
+    }
+    Ok(terrain)
 }
 
 /// The recipe's area in degrees; a size in metres becomes degrees about its centre.

@@ -1,11 +1,13 @@
 //! The recipe and the rules it names, checked. In: a path and the command line's arguments. Out: a [`Recipe`] whose
 //! programs are compiled, or all mistakes at once.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use super::error::PipelineError;
 use super::rules::{self, Programs};
 use crate::diagnostics::Diagnostics;
+use crate::interpreter::FileAssets;
 use crate::source::{Access, AccessError, SourceMap};
 use crate::spec;
 use crate::spec::render_spec::RenderSpec;
@@ -41,7 +43,7 @@ pub fn load_recipe(path: &Path, options: &RecipeOptions, sources: &mut SourceMap
     for tree in &options.allow {
         access.allow(tree)?;
     }
-    let (spec, mut diagnostics) = spec::load(path, &access, sources, &options.arguments);
+    let (spec, mut diagnostics) = spec::load(&path.display().to_string(), &access, sources, &options.arguments);
     let Some(spec) = spec else { return Err(PipelineError::Diagnostics(diagnostics.sorted())) };
     rules::check_files(&spec, &access, &mut diagnostics);
     let programs = rules::compile(&spec, &access, sources, &mut diagnostics);
@@ -51,4 +53,25 @@ pub fn load_recipe(path: &Path, options: &RecipeOptions, sources: &mut SourceMap
     }
     let arguments = options.arguments.clone();
     Ok(Recipe { path: path.to_owned(), spec, access, programs, arguments, warnings: diagnostics })
+}
+
+/// What OpenStreetMap's licence asks of everything made from its data.
+const ATTRIBUTION: &str = "Map data © OpenStreetMap contributors, ODbL 1.0, https://www.openstreetmap.org/copyright";
+
+impl Recipe {
+    /// Text that must accompany what is made of this recipe.
+    pub fn attribution(&self) -> &'static str {
+        ATTRIBUTION
+    }
+
+    /// Files that rules may read: those below the recipe's folders.
+    pub fn assets(&self) -> FileAssets {
+        FileAssets::new(self.access.clone())
+    }
+
+    /// The command line's arguments as the manifest tells them: paths by their names alone.
+    pub fn arguments_without_folders(&self) -> BTreeMap<String, String> {
+        let last = |value: &str| value.rsplit(['/', '\\']).next().unwrap_or(value).to_owned();
+        self.arguments.iter().map(|(name, value)| (name.clone(), last(value))).collect()
+    }
 }

@@ -6,9 +6,11 @@ use std::path::Path;
 use sha2::{Digest, Sha256};
 
 use super::recipe::Recipe;
-use crate::dataset::manifest::{InputFile, ReportRecord};
+use crate::dataset::manifest::{AcquisitionRecord, InputFile, ReportRecord};
 use crate::dataset::writer::sha256;
 use crate::interpreter::tree::Report;
+use crate::plan::demand::{Projection, ViewDemand};
+use crate::plan::sun::to_angles;
 use crate::scene::Scene;
 use crate::source::SourceMap;
 use crate::spec::render_spec::{FileRef, Origin};
@@ -119,4 +121,28 @@ pub fn geometry_hash(scene: &Scene) -> String {
         hash.update(format!("{material:?}").as_bytes());
     }
     hash.finalize().iter().map(|b| format!("{b:02x}")).collect()
+}
+
+/// Camera and sun of one acquisition for the manifest.
+pub fn acquisition_record(demand: &ViewDemand) -> AcquisitionRecord {
+    let camera = &demand.camera;
+    let (projection, half_x, half_y) = match camera.projection {
+        Projection::Perspective { tan_x, tan_y } => ("perspective", tan_x, tan_y),
+        Projection::Orthographic { half_x, half_y } => ("orthographic", half_x, half_y),
+    };
+    let sun = demand.sun.map(|sun| to_angles(sun.direction));
+    AcquisitionRecord {
+        images: demand.outputs.iter().map(|o| o.pass.clone()).collect(),
+        width: camera.width,
+        height: camera.height,
+        position: camera.position.to_array(),
+        right: camera.right.to_array(),
+        up: camera.up.to_array(),
+        forward: camera.forward.to_array(),
+        projection,
+        half_x,
+        half_y,
+        sun_elevation: sun.map(|(elevation, _)| elevation),
+        sun_azimuth: sun.map(|(_, azimuth)| azimuth),
+    }
 }

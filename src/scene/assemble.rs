@@ -69,6 +69,7 @@ pub fn ground_layers(features: &[FeatureParts]) -> Vec<GroundLayer> {
         polygons: vec![face.polygon.clone()],
         priority: face.priority,
         payload: number as u32,
+        surface: face.surface,
     };
     faces.enumerate().map(layer).collect()
 }

@@ -2,7 +2,13 @@
 //!
 //! World axes: x east, y up, z south, metres about the site's one origin.
 
+pub mod assemble;
+pub mod export;
 pub mod ground;
 pub mod model;
+mod palette;
+pub mod parts;
+pub mod texture;
+mod triangles;
 
 pub use model::{Group, Presence, Scene, SceneClass, SceneObject, TriMesh};

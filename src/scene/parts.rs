@@ -8,6 +8,7 @@ use std::sync::Arc;
 
 use glam::{DMat2, DVec2, DVec3};
 
+use super::ground::Surface;
 use super::model::TriMesh;
 use super::triangles::Builder;
 use crate::geometry::{Face, Mesh, Polygon};
@@ -20,7 +21,7 @@ pub enum Stand {
     /// Level on `base`; walls of solid bodies that touch it go `skirt` metres further down.
     Level { skirt: f64 },
     /// Flat faces join the ground mesh with this priority (higher covers lower); the rest is lifted by `lift` metres.
-    Draped { priority: i32, lift: f64 },
+    Draped { priority: i32, surface: Surface, lift: f64 },
     /// A bridge: rises evenly from `heights[0]` at `from` to `heights[1]` at `to` (metres above `base`).
     Deck { from: DVec2, to: DVec2, heights: [f64; 2] },
 }
@@ -40,6 +41,7 @@ pub struct FlatFace {
     pub material: Arc<Material>,
     pub uv: PlanUv,
     pub priority: i32,
+    pub surface: Surface,
 }
 
 /// The contribution of one feature in one state.
@@ -88,8 +90,8 @@ pub fn parts(leaves: &[Leaf], base: f64, stand: &Stand, outline: &Polygon) -> Pa
     for leaf in leaves {
         for face in &leaf.mesh.faces {
             match stand {
-                Stand::Draped { priority, .. } if is_flat(&leaf.mesh, face, base) => {
-                    flat.push(flat_face(&leaf.mesh, face, &leaf.material, *priority));
+                Stand::Draped { priority, surface, .. } if is_flat(&leaf.mesh, face, base) => {
+                    flat.push(flat_face(&leaf.mesh, face, &leaf.material, (*priority, *surface)));
                 }
                 Stand::Draped { lift, .. } => {
                     solid.face(&leaf.mesh, face, &leaf.material, DVec3::new(0.0, *lift, 0.0));
@@ -124,7 +126,7 @@ fn is_flat(mesh: &Mesh, face: &Face, base: f64) -> bool {
     level && mesh.newell(face).y > 0.0
 }
 
-fn flat_face(mesh: &Mesh, face: &Face, material: &Arc<Material>, priority: i32) -> FlatFace {
+fn flat_face(mesh: &Mesh, face: &Face, material: &Arc<Material>, (priority, surface): (i32, Surface)) -> FlatFace {
     let plan = |i: &u32| {
         let p = mesh.positions[*i as usize];
         DVec2::new(p.x, -p.z)
@@ -133,7 +135,7 @@ fn flat_face(mesh: &Mesh, face: &Face, material: &Arc<Material>, priority: i32) 
     let polygon = Polygon { outer: ring(&face.outer), holes: face.holes.iter().map(ring).collect() };
     let corners: Vec<DVec2> = polygon.rings().flatten().copied().collect();
     let uv = face.uv(0).and_then(|uvs| PlanUv::through(&corners, uvs)).unwrap_or(PlanUv::tiles(1.0));
-    FlatFace { polygon, material: material.clone(), uv, priority }
+    FlatFace { polygon, material: material.clone(), uv, priority, surface }
 }
 
 /// Walls from the base downwards along the outline, so that no gap shows where the ground falls.
@@ -182,7 +184,7 @@ mod tests {
         let uvs = square.map(|p| DVec2::new(p[0] / 8.0 + 3.0, -p[2] / 4.0)).to_vec();
         let leaves = [leaf(&square, uvs), leaf(&square.map(|p| [p[0], 3.0, p[2]]), Vec::new())];
         assert!(has_flat_face(&leaves, 2.0) && !has_flat_face(&leaves[1..], 2.0));
-        let parts = parts(&leaves, 2.0, &Stand::Draped { priority: 5, lift: 0.5 }, &Polygon::default());
+        let parts = parts(&leaves, 2.0, &Stand::Draped { priority: 5, surface: Surface::Drape, lift: 0.5 }, &Polygon::default());
         assert_eq!(parts.flat.len(), 1);
         assert_eq!(parts.flat[0].polygon.outer[2], DVec2::new(4.0, 4.0));
         assert!((parts.flat[0].uv.at(DVec2::new(2.0, 1.0)) - DVec2::new(3.25, 0.25)).length() < 1e-12);

@@ -21,6 +21,10 @@ pub fn run(
     let mut sources = SourceMap::default();
     let recipe = load(path, options, &mut sources)?;
     let planned = plan_views(&recipe, reporter).map_err(|e| report::failure(e, &sources))?;
-    print!("{}", planned.dump(format));
+    match format {
+        PlanFormat::Text => print!("{}", planned.text()),
+        PlanFormat::Json => println!("{:#}", planned.json()),
+        PlanFormat::Dot => print!("{}", planned.dot()),
+    }
     Ok(())
 }

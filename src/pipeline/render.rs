@@ -1,0 +1,240 @@
+//! A recipe's dataset, from files to files. The geometry and `scene.glb` are written before the GPU is touched; images
+//! are encoded while the next view is drawn.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::sync_channel;
+
+use super::build::{BuiltScene, build_scene};
+use super::error::PipelineError;
+use super::progress::Progress;
+use super::recipe::Recipe;
+use super::record::{acquisition_record, inputs};
+use super::views::{SceneViews, scene_views};
+use crate::dataset::manifest::{Generator, Manifest, RendererInfo, ViewRecord};
+use crate::dataset::writer::{WrittenFile, write_file};
+use crate::dataset::{DatasetError, image_path, write_image};
+use crate::frame::{Frame, Image};
+use crate::gpu::Renderer;
+use crate::output::{OutputError, prepare_folder};
+use crate::plan::view::DrawnView;
+use crate::scene::SceneClass;
+use crate::scene::export::to_glb;
+use crate::source::SourceMap;
+use crate::spec::render_spec::{DatasetSpec, ViewSpec};
+
+/// What the command line says about a render.
+#[derive(Clone, Debug, Default)]
+pub struct RenderOptions {
+    pub output: PathBuf,
+    /// Names of views, `*` stands for anything; all views if empty.
+    pub views: Vec<String>,
+}
+
+/// What was made.
+#[derive(Clone, Debug, Default)]
+pub struct RenderSummary {
+    pub views: usize,
+    pub images: usize,
+    /// Files besides the images.
+    pub other_files: Vec<String>,
+}
+
+/// Makes all datasets of a recipe. `told` hears of every scene when its geometry is done.
+pub fn render_dataset(
+    recipe: &Recipe,
+    options: &RenderOptions,
+    sources: &SourceMap,
+    progress: &dyn Progress,
+    told: &dyn Fn(&BuiltScene),
+) -> Result<RenderSummary, PipelineError> {
+    check_wanted(recipe, options)?;
+    prepare_folder(&options.output)?;
+    let several = recipe.spec.datasets.len() > 1;
+    let folder = |d: &DatasetSpec| if several { options.output.join(&d.name) } else { options.output.clone() };
+    let mut summary = RenderSummary::default();
+
+    // Geometry, and its glTF, which need no GPU.
+    let mut built = Vec::new();
+    let mut scene_files = Vec::new();
+    for index in 0..recipe.spec.scenes.len() {
+        let scene = build_scene(recipe, index, progress)?;
+        told(&scene);
+        let glb = to_glb(&scene.scene, recipe.attribution())?;
+        let single = recipe.spec.scenes.len() == 1;
+        let name = if single { "scene.glb".to_owned() } else { format!("scene-{}.glb", scene.record.name) };
+        scene_files.push(write_file(&options.output, Path::new(&name), &glb)?);
+        built.push(scene);
+    }
+
+    // Images.
+    let mut renderer = Renderer::new()?;
+    for dataset in &recipe.spec.datasets {
+        let folder = folder(dataset);
+        let mut records = Vec::new();
+        for (index, scene) in built.iter().enumerate() {
+            let views = scene_views(recipe, dataset, index, scene, &|name| is_wanted(name, &options.views));
+            if views.drawn.is_empty() {
+                continue;
+            }
+            progress.begin("render", Some(views.drawn.len() as u64));
+            renderer.upload(&scene.scene)?;
+            records.extend(render_views(&mut renderer, dataset, scene, &views, &folder, progress)?);
+            progress.end(&format!("{} views", views.drawn.len()));
+        }
+        summary.views += records.len();
+        summary.images += records.iter().map(|r| r.images.len()).sum::<usize>();
+        let manifest = manifest(recipe, dataset, sources, &renderer, &built, records, scene_files.clone())?;
+        write_file(&folder, Path::new("manifest.json"), &manifest.to_bytes())?;
+    }
+    summary.other_files.extend(scene_files.into_iter().map(|f| f.path));
+    summary.other_files.push("manifest.json".to_owned());
+    Ok(summary)
+}
+
+/// Draws views one after another; a second thread encodes and writes the images of the one before.
+fn render_views(
+    renderer: &mut Renderer,
+    dataset: &DatasetSpec,
+    scene: &BuiltScene,
+    views: &SceneViews,
+    folder: &Path,
+    progress: &dyn Progress,
+) -> Result<Vec<ViewRecord>, PipelineError> {
+    std::thread::scope(|scope| {
+        let (send, receive) = sync_channel::<(usize, Frame)>(1);
+        let writer = scope.spawn(move || -> Result<Vec<ViewRecord>, DatasetError> {
+            let mut records = Vec::new();
+            for (number, frame) in receive {
+                let drawn = &views.drawn[number];
+                let spec = &dataset.views[drawn.view];
+                let images = write_images(dataset, spec, frame, folder)?;
+                records.push(view_record(drawn, spec, scene, images));
+                progress.step(1);
+            }
+            Ok(records)
+        });
+        let drawn = draw(renderer, views, &mut |number, frame| send.send((number, frame)).is_ok());
+        drop(send);
+        let written = writer.join().expect("the writer does not panic");
+        drawn?;
+        Ok(written?)
+    })
+}
+
+/// Renders every view and hands its images on; stops early if nobody takes them any more.
+fn draw(
+    renderer: &mut Renderer,
+    views: &SceneViews,
+    hand_on: &mut dyn FnMut(usize, Frame) -> bool,
+) -> Result<(), PipelineError> {
+    let mut plans = views.plan.views.iter();
+    for (number, drawn) in views.drawn.iter().enumerate() {
+        let mut frame: Option<Frame> = None;
+        for _ in &drawn.demands {
+            let part = renderer.render(plans.next().expect("one plan per demand"))?;
+            match &mut frame {
+                Some(frame) => frame.images.extend(part.images),
+                None => frame = Some(part),
+            }
+        }
+        let frame = frame.expect("a view has at least one acquisition");
+        if !hand_on(number, frame) {
+            break;
+        }
+    }
+    Ok(())
+}
+
+fn write_images(
+    dataset: &DatasetSpec,
+    view: &ViewSpec,
+    frame: Frame,
+    folder: &Path,
+) -> Result<BTreeMap<String, WrittenFile>, DatasetError> {
+    let size = (frame.width, frame.height);
+    let one = |Image { pass, pixels }: Image| {
+        let name = image_path(&dataset.layout, view.split, &view.name, &pass);
+        Ok((pass, write_image(folder, &name, size, &pixels)?))
+    };
+    frame.images.into_iter().map(one).collect()
+}
+
+fn view_record(
+    drawn: &DrawnView,
+    spec: &ViewSpec,
+    scene: &BuiltScene,
+    images: BTreeMap<String, WrittenFile>,
+) -> ViewRecord {
+    ViewRecord {
+        name: drawn.name.clone(),
+        scene: scene.record.name.clone(),
+        split: spec.split.name(),
+        draws: drawn.draws.iter().map(|d| (d.path.clone(), d.value.into())).collect(),
+        acquisitions: drawn.demands.iter().map(acquisition_record).collect(),
+        images,
+    }
+}
+
+fn manifest(
+    recipe: &Recipe,
+    dataset: &DatasetSpec,
+    sources: &SourceMap,
+    renderer: &Renderer,
+    built: &[BuiltScene],
+    views: Vec<ViewRecord>,
+    files: Vec<WrittenFile>,
+) -> Result<Manifest, PipelineError> {
+    let adapter = renderer.adapter();
+    Ok(Manifest {
+        manifest: 1,
+        generator: Generator { name: "mansard", version: env!("CARGO_PKG_VERSION") },
+        attribution: recipe.attribution().to_owned(),
+        dataset: dataset.name.clone(),
+        arguments: recipe.arguments_without_folders(),
+        inputs: inputs(recipe, sources).map_err(|e| OutputError::new(&recipe.path, e))?,
+        renderer: RendererInfo {
+            backend: adapter.backend.clone(),
+            adapter: adapter.name.clone(),
+            driver: adapter.driver.clone(),
+        },
+        classes: SceneClass::ALL.iter().map(|class| (*class as u8, class.name())).collect(),
+        scenes: built.iter().map(|b| b.record.clone()).collect(),
+        views,
+        files,
+    })
+}
+
+fn check_wanted(recipe: &Recipe, options: &RenderOptions) -> Result<(), PipelineError> {
+    let names: Vec<&str> =
+        recipe.spec.datasets.iter().flat_map(|d| &d.views).map(|v| v.name.as_str()).collect();
+    match options.views.iter().find(|pattern| !names.iter().any(|name| glob(pattern, name))) {
+        Some(pattern) => Err(PipelineError::NoSuchView(pattern.clone())),
+        None => Ok(()),
+    }
+}
+
+fn is_wanted(name: &str, patterns: &[String]) -> bool {
+    patterns.is_empty() || patterns.iter().any(|pattern| glob(pattern, name))
+}
+
+/// `*` stands for any run of characters.
+fn glob(pattern: &str, name: &str) -> bool {
+    match pattern.split_once('*') {
+        None => pattern == name,
+        Some((head, tail)) => name
+            .strip_prefix(head)
+            .is_some_and(|rest| (0..=rest.len()).any(|i| rest.is_char_boundary(i) && glob(tail, &rest[i..]))),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::glob;
+
+    #[test]
+    fn stars_stand_for_anything() {
+        assert!(glob("a*c", "abbc") && glob("*", "") && glob("*_1", "town_top_1") && glob("x", "x"));
+        assert!(!glob("a*c", "abd") && !glob("x", "xy"));
+    }
+}

@@ -1,0 +1,114 @@
+//! Views and their plan. In: a built scene and a dataset block. Out: what every view asks for and the passes that serve
+//! it; no GPU.
+
+use glam::{DVec2, DVec3};
+use serde_json::{Value, json};
+
+use super::build::{BuiltScene, build_scene};
+use super::error::PipelineError;
+use super::progress::Progress;
+use super::recipe::Recipe;
+use crate::plan::view::{DrawnView, SceneSummary, views};
+use crate::plan::{RenderPlan, dump, schedule, summarize};
+use crate::spec::render_spec::DatasetSpec;
+
+/// The views that a dataset has of one scene. `plan.views` holds one entry per demand, in the order of `drawn`.
+pub struct SceneViews {
+    pub drawn: Vec<DrawnView>,
+    pub plan: RenderPlan,
+}
+
+/// Draws and schedules the views of a scene; `wanted` filters them by name.
+pub fn scene_views(
+    recipe: &Recipe,
+    dataset: &DatasetSpec,
+    scene: usize,
+    built: &BuiltScene,
+    wanted: &dyn Fn(&str) -> bool,
+) -> SceneViews {
+    let ground = built.terrain.height(DVec2::ZERO).unwrap_or(built.scene.bounds.0.y);
+    let summary = SceneSummary::new(&built.scene, DVec3::new(0.0, ground, 0.0));
+    let mut drawn = views(&recipe.spec, dataset, scene, &summary);
+    drawn.retain(|view| wanted(&view.name));
+    let demands: Vec<_> = drawn.iter().flat_map(|view| view.demands.iter().cloned()).collect();
+    let plan = schedule(&demands, &summarize(&built.scene));
+    SceneViews { drawn, plan }
+}
+
+/// One dataset's views of one scene, for `mansard plan`.
+pub struct PlannedScene {
+    pub dataset: String,
+    pub scene: String,
+    /// Lines on what was derived and what was not.
+    pub derivation: Vec<String>,
+    pub plan: RenderPlan,
+}
+
+/// Everything that rendering a recipe would do.
+pub struct PlannedRecipe {
+    pub scenes: Vec<PlannedScene>,
+}
+
+/// Builds the scenes of a recipe and plans all views of all its datasets.
+pub fn plan_views(recipe: &Recipe, progress: &dyn Progress) -> Result<PlannedRecipe, PipelineError> {
+    let mut scenes = Vec::new();
+    for index in 0..recipe.spec.scenes.len() {
+        let built = build_scene(recipe, index, progress)?;
+        for dataset in &recipe.spec.datasets {
+            let views = scene_views(recipe, dataset, index, &built, &|_| true);
+            scenes.push(PlannedScene {
+                dataset: dataset.name.clone(),
+                scene: built.record.name.clone(),
+                derivation: derivation(&built),
+                plan: views.plan,
+            });
+        }
+    }
+    Ok(PlannedRecipe { scenes })
+}
+
+fn derivation(built: &BuiltScene) -> Vec<String> {
+    let ledger = &built.record.ledger;
+    let mut lines = vec![
+        format!("derive {} objects, {} triangles", built.scene.objects.len(), built.record.triangles),
+        format!("{} textures, {} materials", built.scene.textures.len(), built.scene.materials.len()),
+        format!("ground within {:.3} m of the elevation data", built.record.terrain_error_m),
+    ];
+    let mut reasons: Vec<(String, usize)> = Vec::new();
+    for entry in &ledger.entries {
+        if let crate::geodata::ledger::Outcome::Skipped(why) = &entry.outcome {
+            match reasons.iter_mut().find(|(r, _)| r == why) {
+                Some((_, count)) => *count += 1,
+                None => reasons.push((why.clone(), 1)),
+            }
+        }
+    }
+    lines.extend(reasons.into_iter().map(|(why, count)| format!("not derived: {count} features, {why}")));
+    lines
+}
+
+impl PlannedRecipe {
+    pub fn text(&self) -> String {
+        let scene = |s: &PlannedScene| {
+            let derivation: String = s.derivation.iter().map(|line| format!("  {line}\n")).collect();
+            format!("dataset {}, scene {}\n{derivation}{}", s.dataset, s.scene, dump::text(&s.plan))
+        };
+        self.scenes.iter().map(scene).collect()
+    }
+
+    pub fn json(&self) -> Value {
+        let scene = |s: &PlannedScene| {
+            json!({
+                "dataset": s.dataset,
+                "scene": s.scene,
+                "derivation": s.derivation,
+                "plan": dump::json(&s.plan),
+            })
+        };
+        json!({ "datasets": self.scenes.iter().map(scene).collect::<Vec<_>>() })
+    }
+
+    pub fn dot(&self) -> String {
+        self.scenes.iter().map(|s| dump::dot(&s.plan)).collect()
+    }
+}
