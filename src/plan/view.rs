@@ -8,15 +8,17 @@ use std::sync::Arc;
 use glam::DVec3;
 use serde::Serialize;
 
-use super::demand::{Ambient, Camera, Output, OutputDemand, Projection, Quality, Selection, Shadows, State, ViewDemand};
+use super::demand::{
+    Ambient, Camera, Output, OutputDemand, Projection, Quality, Selection, Shadows, State, ViewDemand,
+};
 use super::sun::sun;
 use crate::geodata::feature::{FeatureClass, FeatureId};
 use crate::interpreter::seed::Seed;
 use crate::scene::{Presence, Scene, SceneClass};
 use crate::spec::draw::Distribution;
 use crate::spec::render_spec::{
-    AcquisitionSpec, AmbientSpec, CameraSpec, DatasetSpec, Lens, OutputSpec, PassSpec, RenderSpec, SetSpec, ShadowsSpec,
-    StateSpec, ViewSpec,
+    AcquisitionSpec, AmbientSpec, CameraSpec, DatasetSpec, Lens, OutputSpec, PassSpec, RenderSpec, SetSpec,
+    ShadowsSpec, StateSpec, ViewSpec,
 };
 
 /// Linear RGB irradiance of a clear sky on a surface that faces up.
@@ -162,7 +164,8 @@ impl Drawer<'_> {
 
     /// The acquisition, if it draws this property anew.
     fn redrawn_by(&self, path: &str) -> Option<&AcquisitionSpec> {
-        self.acquisition.filter(|acquisition| if path.starts_with("sun.") { acquisition.sun } else { acquisition.camera })
+        self.acquisition
+            .filter(|acquisition| if path.starts_with("sun.") { acquisition.sun } else { acquisition.camera })
     }
 }
 

@@ -126,7 +126,11 @@ pub enum Test {
     /// A value of the class's own tag.
     Kind(Name),
     /// `None` is `*`: any value.
-    Compare { tag: Name, operator: String, value: Option<Box<Expr>> },
+    Compare {
+        tag: Name,
+        operator: String,
+        value: Option<Box<Expr>>,
+    },
 }
 
 impl Property {
@@ -180,9 +184,7 @@ impl Display for CallArgument {
 
 impl Display for Test {
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
-        let list = |tests: &[Test], between: &str| {
-            tests.iter().map(|test| grouped(test)).collect::<Vec<_>>().join(between)
-        };
+        let list = |tests: &[Test], between: &str| tests.iter().map(grouped).collect::<Vec<_>>().join(between);
         match self {
             Test::Any(tests) => f.write_str(&list(tests, " | ")),
             Test::All(tests) => f.write_str(&list(tests, " & ")),

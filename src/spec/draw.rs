@@ -12,9 +12,15 @@ pub const NORMAL_CUT: f64 = 3.0;
 pub enum Distribution {
     Fixed(f64),
     /// Evenly over `[low, high)`; `low <= high`.
-    Uniform { low: f64, high: f64 },
+    Uniform {
+        low: f64,
+        high: f64,
+    },
     /// Cut at [`NORMAL_CUT`] deviations on both sides.
-    Normal { mean: f64, deviation: f64 },
+    Normal {
+        mean: f64,
+        deviation: f64,
+    },
     /// One of the alternatives, with its weight (positive; they need not add up to 1).
     Choice(Vec<(Distribution, f64)>),
 }

@@ -28,9 +28,16 @@ pub enum TagTest {
     /// The class's own tag (such as `building=…`) has this value.
     Kind(String),
     /// The tag has this value.
-    Is { tag: String, value: String },
+    Is {
+        tag: String,
+        value: String,
+    },
     /// The tag is there, is a number (a unit of length is understood) and compares so.
-    Compares { tag: String, order: Order, value: f64 },
+    Compares {
+        tag: String,
+        order: Order,
+        value: f64,
+    },
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -74,13 +81,14 @@ impl TagTest {
             TagTest::Has(tag) => get(tag).is_some(),
             TagTest::Kind(value) => own_tags(class).iter().any(|tag| get(tag) == Some(value)),
             TagTest::Is { tag, value } => get(tag) == Some(value),
-            TagTest::Compares { tag, order, value } => get(tag).and_then(leading_number).is_some_and(|number| match order
-            {
-                Order::Less => number < *value,
-                Order::LessOrEqual => number <= *value,
-                Order::Greater => number > *value,
-                Order::GreaterOrEqual => number >= *value,
-            }),
+            TagTest::Compares { tag, order, value } => {
+                get(tag).and_then(leading_number).is_some_and(|number| match order {
+                    Order::Less => number < *value,
+                    Order::LessOrEqual => number <= *value,
+                    Order::Greater => number > *value,
+                    Order::GreaterOrEqual => number >= *value,
+                })
+            }
         }
     }
 }

@@ -73,7 +73,11 @@ fn check_keys(block: &mut Block, shape: &BlockShape, diagnostics: &mut Diagnosti
 
 /// The error for what the language can say and this version does not do.
 pub(super) fn not_yet(what: &str, span: crate::source::Span) -> Diagnostic {
-    Diagnostic::error("spec::not-supported-yet", span, format!("`{what}` is part of the language, but not supported yet"))
+    Diagnostic::error(
+        "spec::not-supported-yet",
+        span,
+        format!("`{what}` is part of the language, but not supported yet"),
+    )
 }
 
 fn is_auto(property: &Property) -> bool {

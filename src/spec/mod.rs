@@ -44,12 +44,7 @@ pub fn load(
 }
 
 /// Checks a recipe, or a file of shared blocks, whose inputs need not be given.
-pub fn check(
-    path: &str,
-    access: &Access,
-    sources: &mut SourceMap,
-    arguments: &[(String, String)],
-) -> Diagnostics {
+pub fn check(path: &str, access: &Access, sources: &mut SourceMap, arguments: &[(String, String)]) -> Diagnostics {
     analyse(path, access, sources, arguments, Unbound::Allowed).1.sorted()
 }
 

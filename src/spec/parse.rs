@@ -150,9 +150,10 @@ impl Reader<'_> {
         if !text.starts_with(|c: char| c.is_ascii_alphabetic()) {
             return self.unreadable(pair);
         }
-        let diagnostic = Diagnostic::error("spec::syntax", self.span(pair), "this is not a block of the recipe")
-            .help("a block is written `kind name { … }`, a file is shared by `use \"file.render\"`, an input of the \
-                   command line is declared by `input name : file`");
+        let diagnostic = Diagnostic::error("spec::syntax", self.span(pair), "this is not a block of the recipe").help(
+            "a block is written `kind name { … }`, a file is shared by `use \"file.render\"`, an input of the \
+                   command line is declared by `input name : file`",
+        );
         self.diagnostics.push(diagnostic);
     }
 

@@ -35,8 +35,13 @@ pub(super) struct Recipe {
 pub(super) fn read(path: &str, access: &Access, sources: &mut SourceMap, diagnostics: &mut Diagnostics) -> Recipe {
     let mut recipe = Recipe::default();
     let mut seen: Vec<PathBuf> = Vec::new();
+    // The user's own path may lead through links; only what the recipe names is held to its folder tree.
+    let (folder, file) = match (Path::new(path).parent(), Path::new(path).file_name()) {
+        (Some(folder), Some(file)) => (folder.to_owned(), file.to_string_lossy().into_owned()),
+        _ => (PathBuf::new(), path.to_owned()),
+    };
     // Path as written, the folder it is relative to, what messages call it, where it was asked for.
-    let mut waiting = vec![(path.to_owned(), PathBuf::new(), path.to_owned(), None)];
+    let mut waiting = vec![(file, folder, path.to_owned(), None)];
     while let Some((written, base, shown, asked)) = waiting.pop() {
         let (real, text) = match text(access, &base, &written) {
             Ok(found) => found,
@@ -68,9 +73,8 @@ pub(super) fn read(path: &str, access: &Access, sources: &mut SourceMap, diagnos
 
 fn text(access: &Access, base: &Path, written: &str) -> Result<(PathBuf, String), String> {
     let (real, bytes) = access.read(base, written).map_err(|error| error.to_string())?;
-    let text = String::from_utf8(bytes).map_err(|error| {
-        format!("{written} is not UTF-8 text: wrong byte at {}", error.utf8_error().valid_up_to())
-    })?;
+    let text = String::from_utf8(bytes)
+        .map_err(|error| format!("{written} is not UTF-8 text: wrong byte at {}", error.utf8_error().valid_up_to()))?;
     if u32::try_from(text.len()).is_err() {
         return Err(format!("{written} is larger than 4 GiB"));
     }

@@ -78,9 +78,19 @@ pub struct SceneSpec {
 /// What part of the map belongs to the scene, WGS 84 degrees.
 #[derive(Clone, Debug, PartialEq)]
 pub enum AreaSpec {
-    BoundingBox { west: f64, south: f64, east: f64, north: f64 },
+    BoundingBox {
+        west: f64,
+        south: f64,
+        east: f64,
+        north: f64,
+    },
     /// Metres east-west and north-south about a centre.
-    Around { latitude: f64, longitude: f64, width: f64, height: f64 },
+    Around {
+        latitude: f64,
+        longitude: f64,
+        width: f64,
+        height: f64,
+    },
     /// (latitude, longitude) of at least three corners; either winding, not closed.
     Polygon(Vec<(f64, f64)>),
 }
@@ -109,7 +119,10 @@ pub struct AttributeSpec {
 pub enum AttributeValue {
     Value(ValueSpec),
     /// The feature's tag; without the tag the default, without a default the rule file's own value.
-    Tag { key: String, default: Option<ValueSpec> },
+    Tag {
+        key: String,
+        default: Option<ValueSpec>,
+    },
 }
 
 /// A value in the rule language's three types, or how to draw one. Lengths in metres, angles in degrees, 40 % is 0.4.
@@ -370,14 +383,16 @@ impl Split {
     }
 }
 
-/// How files are laid out; see peers.md §5.
+/// How files are laid out. In both LEVIR layouts the pair and its label have the folders that loaders expect; every
+/// other image has a folder of its own name beside them.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum LayoutSpec {
     /// `<view>/<image>.png`.
     Plain,
-    /// LEVIR-CD as open-cd reads it: `{train,val,test}/{A,B,label}/<view>.png`, label 0/255.
+    /// LEVIR-CD as open-cd reads it: `{train,val,test}/{A,B,label}/<view>.png`; in the label
+    /// every value but 0 is written as 255.
     Levir(Pair),
-    /// LEVIR-CD as torchgeo reads it: `{A,B,label}/{train,val,test}_<view>.png`, label 0/255.
+    /// LEVIR-CD as torchgeo reads it: `{A,B,label}/{train,val,test}_<view>.png`, label likewise.
     LevirFlat(Pair),
 }
 

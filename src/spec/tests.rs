@@ -154,7 +154,8 @@ fn one_recipe_shows_all_its_mistakes() {
 
 #[test]
 fn text_that_is_no_recipe_at_all_is_reported_and_what_follows_is_still_read() {
-    let text = small("}}} ?\n%% what\ncamera d {\n gsd é\n fov \"open\n size ((64 x 64\n heading -5deg }\npass q { show }");
+    let text =
+        small("}}} ?\n%% what\ncamera d {\n gsd é\n fov \"open\n size ((64 x 64\n heading -5deg }\npass q { show }");
     let found = mistakes(&text);
     assert!(found.iter().filter(|(code, _)| *code == "spec::syntax").count() >= 4, "{found:?}");
     assert!(found.contains(&("spec::wrong-value", "show".to_owned())), "{found:?}");
@@ -206,10 +207,7 @@ fn what_a_camera_leaves_open_follows_or_has_a_default() {
     let fixed = Distribution::Fixed;
     assert_eq!(lens(""), (Lens::GsdFov { gsd: fixed(0.6), fov: fixed(30.0) }, 1024));
     assert_eq!(lens("altitude 1km"), (Lens::FovAltitude { fov: fixed(30.0), altitude: fixed(1000.0) }, 1024));
-    assert_eq!(
-        lens("altitude 1km; gsd 50cm"),
-        (Lens::GsdAltitude { gsd: fixed(0.5), altitude: fixed(1000.0) }, 1024)
-    );
+    assert_eq!(lens("altitude 1km; gsd 50cm"), (Lens::GsdAltitude { gsd: fixed(0.5), altitude: fixed(1000.0) }, 1024));
     // 2 · 1000 · tan 45° / 2
     assert_eq!(lens("altitude 1km; gsd 2m; fov 90deg").1, 1000);
 }
@@ -279,11 +277,15 @@ fn blocks_extend_others_and_come_from_other_files() {
 fn inputs_are_bound_on_the_command_line() {
     let text = "input map : files\ninput window : value = -122.7, 38.4, -122.6, 38.5\ninput side : value = 64\n\
                 scene s { map $map; area bbox $window }\ncamera c { size $side x $side }\npass before { show all }";
-    let (spec, diagnostics, _) = load_files(&[("r.render", text)], &[("map", "/data/a.osm.pbf, b.osm"), ("side", "9px")]);
+    let (spec, diagnostics, _) =
+        load_files(&[("r.render", text)], &[("map", "/data/a.osm.pbf, b.osm"), ("side", "9px")]);
     let spec = spec.unwrap_or_else(|| panic!("{diagnostics:?}"));
     let maps: Vec<_> = spec.scenes[0].maps.iter().map(|map| (map.written.as_str(), &map.origin)).collect();
     assert_eq!(maps, [("/data/a.osm.pbf", &Origin::CommandLine), ("b.osm", &Origin::CommandLine)]);
-    assert_eq!(spec.scenes[0].area, Some(AreaSpec::BoundingBox { west: -122.7, south: 38.4, east: -122.6, north: 38.5 }));
+    assert_eq!(
+        spec.scenes[0].area,
+        Some(AreaSpec::BoundingBox { west: -122.7, south: 38.4, east: -122.6, north: 38.5 })
+    );
     let codes = |arguments: &[(&str, &str)]| {
         let (_, diagnostics, sources) = load_files(&[("r.render", text)], arguments);
         let place = |d: &crate::diagnostics::Diagnostic| sources.get(d.span.source).name.to_string();
@@ -348,14 +350,21 @@ fn passes_show_sets_in_states() {
 #[test]
 fn datasets_split_by_scene_and_check_their_layout() {
     let passes = "pass after { show all }\npass mask { show all as mask }\nscene t : s { seed 1 }\n";
-    let spec = loaded(&small(&format!("{passes}dataset d {{ views 2 * c\n split train s test t\n layout levir_flat }}")));
+    let spec =
+        loaded(&small(&format!("{passes}dataset d {{ views 2 * c\n split train s test t\n layout levir_flat }}")));
     let splits: Vec<Split> = spec.datasets[0].views.iter().map(|view| view.split).collect();
     assert_eq!(splits, [Split::Train, Split::Train, Split::Test, Split::Test]);
-    let found = message(&small("dataset d { views c; layout levir(a = before, b = before, label = mask) }"), "spec::unknown-name");
+    let found = message(
+        &small("dataset d { views c; layout levir(a = before, b = before, label = mask) }"),
+        "spec::unknown-name",
+    );
     assert!(found.starts_with("there is no image `mask`"), "{found}");
     let text = format!("{passes}dataset d {{ views c; layout levir(label = after) }}");
     message(&small(&text), "spec::wrong-value");
-    message(&small("sun a { elevation 3deg }\nsun b { elevation 4deg }\ndataset d { views c }"), "spec::ambiguous-block");
+    message(
+        &small("sun a { elevation 3deg }\nsun b { elevation 4deg }\ndataset d { views c }"),
+        "spec::ambiguous-block",
+    );
     message(&small("dataset d { views 0 * c }"), "spec::out-of-range");
 }
 
@@ -388,7 +397,8 @@ fn places_and_areas_are_checked() {
         ("center 1, 2 size 2 x 2", "spec::missing-unit"),
         ("center 1, 2 size 0m", "spec::out-of-range"),
     ] {
-        let (_, diagnostics, _) = load_files(&[("r.render", &small(&format!("scene t {{ map \"a.osm\"; area {area} }}")))], &[]);
+        let (_, diagnostics, _) =
+            load_files(&[("r.render", &small(&format!("scene t {{ map \"a.osm\"; area {area} }}")))], &[]);
         assert!(diagnostics.iter().all(|d| d.code == code) && diagnostics.has_errors(), "{area} {diagnostics:?}");
     }
     loaded(&small("scene t { map \"a.osm\"; area polygon (1, 2), (3, 4), (5deg, 6deg) }"));
@@ -396,11 +406,43 @@ fn places_and_areas_are_checked() {
 
 #[test]
 fn files_that_cannot_be_used_are_reported_where_they_are_named() {
-    let codes = |text: &str| mistakes(text).into_iter().map(|(code, under)| format!("{code} {under}")).collect::<Vec<_>>();
+    let codes =
+        |text: &str| mistakes(text).into_iter().map(|(code, under)| format!("{code} {under}")).collect::<Vec<_>>();
     assert_eq!(codes("use \"no.render\"\nscene s { map \"a.osm\" }"), ["spec::unreadable-file \"no.render\""]);
-    assert_eq!(codes("use \"../../x.render\"\nscene s { map \"a.osm\" }"), ["spec::unreadable-file \"../../x.render\""]);
+    assert_eq!(
+        codes("use \"../../x.render\"\nscene s { map \"a.osm\" }"),
+        ["spec::unreadable-file \"../../x.render\""]
+    );
     assert_eq!(codes("pass p { show all }"), ["spec::missing-block "]);
     assert_eq!(codes("version 2\nscene s { map \"a.osm\" }"), ["spec::unknown-version 2"]);
-    let (spec, diagnostics) = load("/no/such.render", &Access::new("/".as_ref()).expect("there is a root"), &mut SourceMap::default(), &[]);
+    let (spec, diagnostics) =
+        load("/no/such.render", &Access::new("/".as_ref()).expect("there is a root"), &mut SourceMap::default(), &[]);
     assert!(spec.is_none() && diagnostics.iter().any(|d| d.code == "spec::unreadable-file"));
+}
+
+/// A recipe of the repository.
+fn example(path: &str, arguments: &[(&str, &str)]) -> (Option<RenderSpec>, Diagnostics) {
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("examples").join(path);
+    let access = Access::new(path.parent().expect("a file has a folder")).expect("the folder is there");
+    let arguments: Vec<(String, String)> = arguments.iter().map(|(n, v)| ((*n).into(), (*v).into())).collect();
+    load(&path.display().to_string(), &access, &mut SourceMap::default(), &arguments)
+}
+
+#[test]
+fn the_examples_load() {
+    let (spec, diagnostics) = example("riverside/riverside.render", &[]);
+    let spec = spec.unwrap_or_else(|| panic!("{diagnostics:?}"));
+    assert_eq!((spec.scenes[0].rules.len(), spec.datasets[0].views.len()), (5, 3));
+    let inputs = [("map", "a.osm,b.osm"), ("elevation", "c.tif"), ("window", "-122.7240,38.4182,-122.7010,38.4362")];
+    let (spec, diagnostics) = example("syncw/syncw.render", &inputs);
+    let spec = spec.unwrap_or_else(|| panic!("{diagnostics:?}"));
+    let dataset = &spec.datasets[0];
+    assert_eq!((spec.scenes[0].maps.len(), dataset.views.len(), dataset.views[0].camera.width), (2, 5, 3072));
+    assert_eq!(spec.passes[1].acquisition, spec.passes[2].acquisition);
+    let small = [inputs.as_slice(), &[("side", "64"), ("inclined", "1"), ("redraw", "sun")]].concat();
+    let spec = example("syncw/syncw.render", &small).0.expect("the inputs are good");
+    assert_eq!((spec.datasets[0].views.len(), spec.datasets[0].views[1].camera.height), (2, 64));
+    let (none, diagnostics) = example("syncw/syncw.render", &[]);
+    assert!(none.is_none() && diagnostics.iter().all(|d| d.code == "spec::missing-input"), "{diagnostics:?}");
+    assert_eq!(diagnostics.iter().count(), 3);
 }

@@ -83,7 +83,10 @@ fn another_view_pass_or_property_never_changes_a_draw() {
         }
     }
     assert_ne!(value(&views[0], "camera.azimuth"), value(&views[1], "camera.azimuth"));
-    assert_ne!(value(&views[0], "camera.azimuth"), value(&all_views(&RECIPE.replace("seed 3", "seed 0"))[0], "camera.azimuth"));
+    assert_ne!(
+        value(&views[0], "camera.azimuth"),
+        value(&all_views(&RECIPE.replace("seed 3", "seed 0"))[0], "camera.azimuth")
+    );
 }
 
 #[test]
@@ -125,7 +128,8 @@ fn the_scene_centre_is_in_the_middle_of_the_image_and_a_pixel_there_covers_the_g
 
 #[test]
 fn an_orthographic_camera_stands_outside_the_scene() {
-    let text = RECIPE.replace("camera top { size 64 x 64 }", "camera top { projection orthographic; size 64 x 32; gsd 2m }");
+    let text =
+        RECIPE.replace("camera top { size 64 x 64 }", "camera top { projection orthographic; size 64 x 32; gsd 2m }");
     let camera = all_views(&text).last().expect("the recipe has views").demands[0].camera;
     assert_eq!(camera.projection, Projection::Orthographic { half_x: 64.0, half_y: 32.0 });
     assert!(camera.position.y > summary().bounds.1.y && camera.near > LEAST_NEAR);
@@ -184,7 +188,8 @@ fn changed(text: &str, ids: &[FeatureId]) -> (Vec<Option<(usize, usize)>>, Vec<c
 #[test]
 fn a_share_is_met_exactly_and_another_feature_moves_at_most_one() {
     let (flags, records) = changed(RECIPE, &ways(0..1000));
-    let burnt = |flags: &[Option<(usize, usize)>]| -> Vec<bool> { flags.iter().map(|f| matches!(f, Some((0, _)))).collect() };
+    let burnt =
+        |flags: &[Option<(usize, usize)>]| -> Vec<bool> { flags.iter().map(|f| matches!(f, Some((0, _)))).collect() };
     let before = burnt(&flags);
     assert_eq!(before.iter().filter(|&&burnt| burnt).count(), 400);
     assert_eq!((records[0].drawn, records[0].candidates, records[1].drawn), (400, 1000, 250));
@@ -200,7 +205,8 @@ fn a_share_is_met_exactly_and_another_feature_moves_at_most_one() {
 
 #[test]
 fn parts_of_one_object_change_together_and_levels_follow_their_shares() {
-    let text = RECIPE.replace("rules \"d.cga\" }", "level low share 75% rules \"d.cga\"\n level gone share 25% effect demolished }");
+    let text = RECIPE
+        .replace("rules \"d.cga\" }", "level low share 75% rules \"d.cga\"\n level gone share 25% effect demolished }");
     let ids: Vec<FeatureId> = ways(0..2000).into_iter().flat_map(|id| [id, FeatureId { part: 1, ..id }]).collect();
     let (flags, _) = changed(&text, &ids);
     assert!(flags.chunks(2).all(|pair| pair[0] == pair[1]));

@@ -125,10 +125,9 @@ impl Checker<'_> {
             }
             (Some(gsd), None, Some(altitude)) => Lens::GsdAltitude { gsd, altitude },
             (None, fov, Some(altitude)) => Lens::FovAltitude { fov: fov.unwrap_or(default_fov), altitude },
-            (gsd, fov, None) => Lens::GsdFov {
-                gsd: gsd.unwrap_or(Distribution::Fixed(DEFAULT_GSD)),
-                fov: fov.unwrap_or(default_fov),
-            },
+            (gsd, fov, None) => {
+                Lens::GsdFov { gsd: gsd.unwrap_or(Distribution::Fixed(DEFAULT_GSD)), fov: fov.unwrap_or(default_fov) }
+            }
         };
         Some((lens, usual))
     }

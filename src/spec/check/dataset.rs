@@ -235,7 +235,11 @@ impl Checker<'_> {
         let a = self.image(&pair.a, &colour, "a colour image", passes, found, value.span);
         let b = self.image(&pair.b, &colour, "a colour image", passes, found, value.span);
         let label = self.image(&pair.label, &labels, "a mask, class or level image", passes, found, value.span);
-        (a? && b? && label?).then_some(if word == "levir" { LayoutSpec::Levir(pair) } else { LayoutSpec::LevirFlat(pair) })
+        (a? && b? && label?).then_some(if word == "levir" {
+            LayoutSpec::Levir(pair)
+        } else {
+            LayoutSpec::LevirFlat(pair)
+        })
     }
 
     /// Whether an image of this name and one of these kinds is among the passes; reports why not.

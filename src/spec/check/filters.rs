@@ -96,7 +96,13 @@ impl Checker<'_> {
             None => Some(Filter::all()),
         };
         let attributes = self.attributes(property.body.as_deref().unwrap_or_default());
-        Some(RuleAssignment { file: file?, start: start?, filter: filter?, attributes: attributes?, span: property.span })
+        Some(RuleAssignment {
+            file: file?,
+            start: start?,
+            filter: filter?,
+            attributes: attributes?,
+            span: property.span,
+        })
     }
 
     pub fn rule_file(&mut self, value: &Expr) -> Option<crate::spec::render_spec::FileRef> {
@@ -156,7 +162,12 @@ impl Checker<'_> {
             ExprKind::Word(word) if word == "false" => Some(ValueSpec::Bool(false)),
             ExprKind::Word(word) => {
                 let message = format!("`{word}` is not a value");
-                self.error_with_help("spec::wrong-value", value.span, message, format!("a text is written `\"{word}\"`"));
+                self.error_with_help(
+                    "spec::wrong-value",
+                    value.span,
+                    message,
+                    format!("a text is written `\"{word}\"`"),
+                );
                 None
             }
             ExprKind::Call { name, arguments }

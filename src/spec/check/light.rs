@@ -59,9 +59,7 @@ impl Checker<'_> {
             (Some(_), None) => {
                 let elevation = self.bounded(properties, "elevation", Dimension::Angle, ANY_ANGLE);
                 let azimuth = self.bounded(properties, "azimuth", Dimension::Angle, ANY_ANGLE);
-                let Some(property) = self.required(properties, "elevation", span, "a sun with an `azimuth`") else {
-                    return None;
-                };
+                let property = self.required(properties, "elevation", span, "a sun with an `azimuth`")?;
                 let elevation = elevation.ok()??;
                 let (low, high) = elevation.bounds();
                 if low <= 0.0 {

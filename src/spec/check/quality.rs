@@ -22,9 +22,9 @@ impl Checker<'_> {
         let preset = match get(properties, "preset") {
             Some(property) => {
                 let words = PRESETS.map(|(name, _)| name);
-                self.one(property).and_then(|value| self.word(value, &words, &[])).map(|word| {
-                    PRESETS.iter().find(|(name, _)| *name == word).expect("the word is one of these").1
-                })
+                self.one(property)
+                    .and_then(|value| self.word(value, &words, &[]))
+                    .map(|word| PRESETS.iter().find(|(name, _)| *name == word).expect("the word is one of these").1)
             }
             None => Some(STANDARD),
         };

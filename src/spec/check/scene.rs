@@ -80,9 +80,12 @@ impl Checker<'_> {
 
     fn area(&mut self, property: &Property) -> Option<AreaSpec> {
         let clause = |word: &str| property.clause(word);
-        let wrong_form = !property.values.is_empty() || property.clauses.iter().enumerate().any(|(i, clause)| {
-            property.clauses[..i].iter().any(|before| before.word.text == clause.word.text)
-        });
+        let wrong_form = !property.values.is_empty()
+            || property
+                .clauses
+                .iter()
+                .enumerate()
+                .any(|(i, clause)| property.clauses[..i].iter().any(|before| before.word.text == clause.word.text));
         match (clause("center"), clause("size"), clause("bbox"), clause("polygon")) {
             _ if wrong_form => {}
             (Some(center), Some(size), None, None) => return self.around(center, size),
