@@ -26,7 +26,7 @@ pub fn extract(
 }
 
 /// The part of the earth that the map is about: the declared bounds, or else the box of its buildings, or else of its
-/// roads. Single far-away nodes do not count. `None` for a map without any of them.
+/// roads, or else of all its ways. Single far-away nodes do not count. `None` for a map without ways.
 pub fn extent(data: &OsmData) -> Option<LonLatBox> {
     super::features::extent(data)
 }

@@ -9,4 +9,6 @@ pub mod map;
 pub mod osm;
 pub mod projection;
 pub mod tags;
+#[cfg(test)]
+mod testdata;
 pub mod terrain;

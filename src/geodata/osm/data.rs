@@ -154,6 +154,17 @@ pub enum ShapeGeometry {
     Polygons(Vec<Vec<Vec<Position>>>),
 }
 
+impl ShapeGeometry {
+    /// All positions, ring by ring.
+    pub fn positions(&self) -> impl Iterator<Item = Position> + '_ {
+        let (lines, polygons): (&[_], &[_]) = match self {
+            ShapeGeometry::Lines(lines) => (lines, &[]),
+            ShapeGeometry::Polygons(polygons) => (&[], polygons),
+        };
+        lines.iter().chain(polygons.iter().flatten()).flatten().copied()
+    }
+}
+
 #[derive(Clone, Debug)]
 struct ShapeRecord {
     id: i64,

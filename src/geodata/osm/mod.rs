@@ -19,7 +19,6 @@ pub use data::{LonLatBox, Member, OsmBuilder, OsmData, Position, Relation, Shape
 pub use error::{MapError, MapPlace};
 
 use container::Opened;
-use error::Fault;
 
 /// Reads all files into one map; of objects with the same id the one read first stays.
 pub fn read_files(paths: &[PathBuf]) -> Result<OsmData, MapError> {
@@ -39,11 +38,10 @@ pub fn read_stream(
     builder: &mut OsmBuilder,
 ) -> Result<Format, MapError> {
     let Opened { format, reader } = container::open(input, name)?;
-    let read: fn(_, _) -> Result<(), Fault> = match format {
-        Format::Xml => xml::read,
-        Format::Pbf => pbf::read,
-        Format::Json => json::read,
+    let done = match format {
+        Format::Xml => xml::read(reader, builder),
+        Format::Pbf => pbf::read(reader, builder),
+        Format::Json => json::read(reader, builder),
     };
-    read(reader, builder).map_err(|fault| fault.in_file(name))?;
-    Ok(format)
+    done.map(|()| format).map_err(|fault| fault.in_file(name))
 }

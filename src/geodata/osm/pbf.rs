@@ -3,7 +3,7 @@
 //! The frame (length, BlobHeader, Blob; <https://wiki.openstreetmap.org/wiki/PBF_Format>) is read here, because the
 //! `osmpbf` crate takes a cut length for the end and cannot unpack LZ4; each unpacked blob is decoded by the crate.
 
-use std::io::{ErrorKind, Read};
+use std::io::{self, ErrorKind, Read};
 
 use osmpbf::{BlobReader, PrimitiveBlock, RelMemberType};
 
@@ -37,7 +37,7 @@ pub(super) fn read(mut input: CountedReader, builder: &mut OsmBuilder) -> Result
 
 /// A fault whose place is the blob.
 enum BlobFault {
-    Io(std::io::Error),
+    Io(io::Error),
     Bad(String),
 }
 
@@ -50,8 +50,8 @@ impl BlobFault {
     }
 }
 
-impl From<std::io::Error> for BlobFault {
-    fn from(error: std::io::Error) -> Self {
+impl From<io::Error> for BlobFault {
+    fn from(error: io::Error) -> Self {
         BlobFault::Io(error)
     }
 }
@@ -71,7 +71,7 @@ fn next_blob(input: &mut CountedReader) -> Result<Option<(String, Vec<u8>)>, Blo
     let mut length = Vec::new();
     input.by_ref().take(4).read_to_end(&mut length)?;
     let Ok(length) = <[u8; 4]>::try_from(length.as_slice()) else {
-        return if length.is_empty() { Ok(None) } else { Err(ErrorKind::UnexpectedEof)? };
+        return if length.is_empty() { Ok(None) } else { Err(io::Error::from(ErrorKind::UnexpectedEof))? };
     };
     let length = u32::from_be_bytes(length) as usize;
     if length > MAX_HEADER {
@@ -96,7 +96,7 @@ fn next_blob(input: &mut CountedReader) -> Result<Option<(String, Vec<u8>)>, Blo
 fn take(input: &mut CountedReader, length: usize) -> Result<Vec<u8>, BlobFault> {
     let mut bytes = Vec::new();
     input.by_ref().take(length as u64).read_to_end(&mut bytes)?;
-    if bytes.len() < length { Err(ErrorKind::UnexpectedEof)? } else { Ok(bytes) }
+    if bytes.len() < length { Err(io::Error::from(ErrorKind::UnexpectedEof))? } else { Ok(bytes) }
 }
 
 /// The message inside a Blob.
