@@ -8,7 +8,7 @@ use super::passes::{Drawing, depth, ids, resolve, shade, shadow_map};
 use super::pipelines::Pipelines;
 use super::pools::{Target, TargetPool};
 use super::readback::{Readback, blank};
-use super::tiles::{self, Tile, ViewUniform, light_planes, light_view, tile_planes, tile_size, tile_view};
+use super::tiles::{self, Tile, ViewUniform, light_planes, light_view, panel, panel_view, tile_planes, tile_size};
 use super::upload::GpuScene;
 use super::{GpuError, Renderer};
 use crate::frame::{Frame, Image, Pixels};
@@ -54,6 +54,14 @@ fn check_sizes(gpu: &Gpu, view: &ViewPlan) -> Result<(), GpuError> {
         }
     }
     Ok(())
+}
+
+/// A tile of the image, in render targets of `size` pixels.
+#[derive(Clone, Copy)]
+struct Place {
+    tile: Tile,
+    size: (u32, u32),
+    supersample: u32,
 }
 
 struct Execution<'a> {
@@ -111,14 +119,17 @@ impl Execution<'_> {
         let written = stage.passes.iter().flat_map(|pass| &pass.writes);
         let supersample = written.map(|id| self.view.resources[id.0].texture.supersample).max().unwrap_or(1);
         let image = (self.view.camera.width, self.view.camera.height);
-        let size = [image.0, image.1].map(|side| tile_size(side.max(1), supersample, self.max_tile));
+        let size = (
+            tile_size(image.0.max(1), supersample, self.max_tile),
+            tile_size(image.1.max(1), supersample, self.max_tile),
+        );
         let all = Tile { x: 0, y: 0, width: image.0, height: image.1 };
-        let tiles = if stage.tiled { tiles::tiles(image, (size[0], size[1])) } else { vec![all] };
+        let tiles = if stage.tiled { tiles::tiles(image, size) } else { vec![all] };
         for tile in tiles {
             let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
-            let targets = self.stage_targets(stage, (size[0], size[1]));
+            let targets = self.stage_targets(stage, size);
             for pass in &stage.passes {
-                self.pass(&mut encoder, pass, tile, &targets);
+                self.pass(&mut encoder, pass, (tile, size), &targets);
             }
             self.readback.collect(self.gpu, encoder, self.view, tile, &stage.products, &targets, images)?;
         }
@@ -141,18 +152,22 @@ impl Execution<'_> {
         &mut self,
         encoder: &mut wgpu::CommandEncoder,
         pass: &Pass,
-        tile: Tile,
+        (tile, size): (Tile, (u32, u32)),
         targets: &BTreeMap<ResourceId, Target>,
     ) {
         let camera = &self.view.camera;
         let target = |i: usize| &targets[&pass.writes[i]];
-        let sampled = (target(0), self.view.resources[pass.writes[0].0].texture.supersample);
+        let supersample = self.view.resources[pass.writes[0].0].texture.supersample;
+        let at = Place { tile, size, supersample };
         match &pass.kind {
             PassKind::ShadowMap { draw, light } => {
                 let planes = light_planes(light, camera.position);
                 let list = draws::gather(self.scene, &draw.objects, camera.position, &planes, false);
                 let uniform = light_view(light, camera.position);
-                self.draw(&list, &uniform, target(0).size, |drawing| shadow_map::encode(encoder, drawing, target(0)));
+                let viewport = [0.0, 0.0, light.size as f32, light.size as f32];
+                self.draw(&list, &uniform, viewport, target(0).size, |drawing| {
+                    shadow_map::encode(encoder, drawing, target(0));
+                });
             }
             PassKind::Shade { draw, sun, ambient, light } => {
                 let uniform = shade::light_uniform(camera.position, sun.as_ref(), *ambient, light.as_ref());
@@ -160,7 +175,7 @@ impl Execution<'_> {
                 let layouts = &self.pipelines.layouts;
                 let light = shade::light_group(self.gpu, layouts, &uniform, &self.scene.materials, shadow_map);
                 let filter = shadow_filter(pass);
-                self.draw_tile(draw, tile, sampled, true, |drawing| {
+                self.draw_tile(draw, at, true, |drawing| {
                     shade::encode(encoder, drawing, &light, filter, (target(0), target(1)));
                 });
             }
@@ -171,40 +186,43 @@ impl Execution<'_> {
                 resolve::encode(encoder, gpu, pipelines, *supersample, (radiance, target(0)), area);
             }
             PassKind::Ids { draw } => {
-                self.draw_tile(draw, tile, sampled, false, |drawing| {
-                    ids::encode(encoder, drawing, target(0), target(1))
-                });
+                self.draw_tile(draw, at, false, |drawing| ids::encode(encoder, drawing, target(0), target(1)));
             }
             PassKind::Depth { draw } => {
-                self.draw_tile(draw, tile, sampled, false, |drawing| depth::encode(encoder, drawing, target(0)));
+                self.draw_tile(draw, at, false, |drawing| depth::encode(encoder, drawing, target(0)));
             }
         }
     }
 
     /// Draws what a tile shows of a selection; textures matter `by_texture`, or only where they have holes.
-    fn draw_tile(
-        &self,
-        draw: &DrawSet,
-        tile: Tile,
-        (target, supersample): (&Target, u32),
-        by_texture: bool,
-        encode: impl FnOnce(&Drawing),
-    ) {
+    fn draw_tile(&self, draw: &DrawSet, at: Place, by_texture: bool, encode: impl FnOnce(&Drawing)) {
+        let Place { tile, size, supersample } = at;
         let camera = &self.view.camera;
         let planes = tile_planes(camera, tile);
         let list = draws::gather(self.scene, &draw.objects, camera.position, &planes, by_texture);
-        let uniform = tile_view(camera, self.view.far, tile, target.size, supersample);
-        self.draw(&list, &uniform, (tile.width * supersample, tile.height * supersample), encode);
+        let panel = panel((camera.width, camera.height), tile, size, supersample, self.gpu.max_texture);
+        let uniform = panel_view(camera, self.view.far, panel, supersample);
+        let scaled = |pixels: u32| (pixels * supersample) as f32;
+        let corner = [-scaled(tile.x - panel.x), -scaled(tile.y - panel.y)];
+        let viewport = [corner[0], corner[1], scaled(panel.width), scaled(panel.height)];
+        self.draw(&list, &uniform, viewport, (tile.width * supersample, tile.height * supersample), encode);
     }
 
-    fn draw(&self, list: &DrawList, uniform: &ViewUniform, area: (u32, u32), encode: impl FnOnce(&Drawing)) {
+    fn draw(
+        &self,
+        list: &DrawList,
+        uniform: &ViewUniform,
+        viewport: [f32; 4],
+        area: (u32, u32),
+        encode: impl FnOnce(&Drawing),
+    ) {
         let buffer = self.gpu.uniform("view", uniform);
         let entries = [wgpu::BindGroupEntry { binding: 0, resource: buffer.as_entire_binding() }];
         let layout = &self.pipelines.layouts.view;
         let descriptor = wgpu::BindGroupDescriptor { label: Some("view"), layout, entries: &entries };
         let view = &self.gpu.device.create_bind_group(&descriptor);
         let indices = &self.gpu.buffer("indices", bytemuck::cast_slice(&list.indices), wgpu::BufferUsages::INDEX);
-        encode(&Drawing { pipelines: self.pipelines, scene: self.scene, list, indices, view, area });
+        encode(&Drawing { pipelines: self.pipelines, scene: self.scene, list, indices, view, viewport, area });
     }
 }
 

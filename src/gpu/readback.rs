@@ -34,7 +34,7 @@ impl Readback {
         self.buffer.as_ref().expect("it was made above")
     }
 
-    /// Submits `encoder` followed by copies of the targets' upper left corners, waits, and hands each product's rows
+    /// Submits `encoder` followed by copies of the targets, waits, and hands each product's rows
     /// to its image.
     pub fn collect(
         &mut self,
@@ -46,14 +46,16 @@ impl Readback {
         targets: &BTreeMap<ResourceId, Target>,
         images: &mut [Option<Pixels>],
     ) -> Result<(), GpuError> {
-        let stride = (tile.width * TEXEL).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
-        let size = u64::from(stride) * u64::from(tile.height);
+        // Depth can only be copied as a whole; the targets of a stage's products have one size.
+        let (width, height) = products.first().map_or((0, 0), |p| targets[&p.source].size);
+        let stride = (width * TEXEL).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+        let size = u64::from(stride) * u64::from(height);
         let mut sources: Vec<ResourceId> = products.iter().map(|p| p.source).collect();
         sources.sort();
         sources.dedup();
         let buffer = self.reserve(gpu, size * sources.len() as u64);
         for (i, source) in sources.iter().enumerate() {
-            copy(&mut encoder, &targets[source], buffer, i as u64 * size, stride, tile);
+            copy(&mut encoder, &targets[source], buffer, i as u64 * size, stride);
         }
         gpu.queue.submit([encoder.finish()]);
         if sources.is_empty() {
@@ -70,7 +72,7 @@ impl Readback {
             let place = sources.binary_search(&product.source).expect("every product's source is in the list");
             let rows = mapped[place * size as usize..][..size as usize].chunks_exact(stride as usize);
             let image = images[product.index].get_or_insert_with(|| blank(view, &product.encoding));
-            for (y, row) in rows.enumerate() {
+            for (y, row) in rows.take(tile.height as usize).enumerate() {
                 let at = (tile.y as usize + y) * view.camera.width as usize + tile.x as usize;
                 write_row(view, &product.encoding, &row[..(tile.width * TEXEL) as usize], image, at);
             }
@@ -81,21 +83,14 @@ impl Readback {
     }
 }
 
-fn copy(
-    encoder: &mut wgpu::CommandEncoder,
-    target: &Target,
-    buffer: &wgpu::Buffer,
-    offset: u64,
-    stride: u32,
-    tile: Tile,
-) {
+fn copy(encoder: &mut wgpu::CommandEncoder, target: &Target, buffer: &wgpu::Buffer, offset: u64, stride: u32) {
     encoder.copy_texture_to_buffer(
         target.texture.as_image_copy(),
         wgpu::TexelCopyBufferInfo {
             buffer,
             layout: wgpu::TexelCopyBufferLayout { offset, bytes_per_row: Some(stride), rows_per_image: None },
         },
-        wgpu::Extent3d { width: tile.width, height: tile.height, depth_or_array_layers: 1 },
+        target.texture.size(),
     );
 }
 

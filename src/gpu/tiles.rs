@@ -1,4 +1,8 @@
 //! Tiles: an image larger than a render target is drawn piece by piece; and the matrices that place the pieces.
+//!
+//! All tiles of a *panel* share one viewport, moved by whole samples: clipping and rounding are then the same for
+//! each, and a triangle covers the same samples whichever tile shows it. A panel is the whole image wherever the
+//! adapter's largest viewport allows.
 
 use glam::DVec3;
 
@@ -37,6 +41,18 @@ pub fn tiles(image: (u32, u32), tile: (u32, u32)) -> Vec<Tile> {
     starts(image.1, tile.1).flat_map(row).collect()
 }
 
+/// The panel that holds `tile`: whole tiles of `size` pixels, at most `limit` samples per side.
+pub fn panel(image: (u32, u32), tile: Tile, size: (u32, u32), supersample: u32, limit: u32) -> Tile {
+    let side = |image: u32, at: u32, size: u32| {
+        let panel = size * (limit / (size * supersample)).max(1);
+        let start = at / panel * panel;
+        (start, panel.min(image - start))
+    };
+    let (x, width) = side(image.0, tile.x, size.0);
+    let (y, height) = side(image.1, tile.y, size.1);
+    Tile { x, y, width, height }
+}
+
 /// `View` of `shaders/common.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
@@ -44,8 +60,8 @@ pub struct ViewUniform {
     pub clip_from_camera: [[f32; 4]; 4],
     pub forward: [f32; 4],
     pub image_half: [f32; 2],
-    pub tile_center: [f32; 2],
-    pub tile_half: [f32; 2],
+    pub panel_center: [f32; 2],
+    pub panel_half: [f32; 2],
     pub front: f32,
     pub unused: f32,
 }
@@ -54,8 +70,8 @@ fn row(axis: DVec3, constant: f64) -> [f32; 4] {
     axis.extend(constant).as_vec4().to_array()
 }
 
-/// View of a tile. The render target holds `target` samples; the tile begins at its upper left corner.
-pub fn tile_view(camera: &Camera, far: f64, tile: Tile, target: (u32, u32), supersample: u32) -> ViewUniform {
+/// View of a panel.
+pub fn panel_view(camera: &Camera, far: f64, panel: Tile, supersample: u32) -> ViewUniform {
     let parallel = matches!(camera.projection, Projection::Orthographic { .. });
     let clip_from_camera = match camera.projection {
         Projection::Perspective { tan_x, tan_y } => [
@@ -73,15 +89,15 @@ pub fn tile_view(camera: &Camera, far: f64, tile: Tile, target: (u32, u32), supe
     };
     let half = |samples: u32| f64::from(samples) / 2.0;
     let image_half = [half(camera.width * supersample), half(camera.height * supersample)];
-    let tile_half = [half(target.0), half(target.1)];
-    let left = f64::from(tile.x * supersample) + tile_half[0] - image_half[0];
-    let down = f64::from(tile.y * supersample) + tile_half[1] - image_half[1];
+    let panel_half = [half(panel.width * supersample), half(panel.height * supersample)];
+    let right = f64::from(panel.x * supersample) + panel_half[0] - image_half[0];
+    let down = f64::from(panel.y * supersample) + panel_half[1] - image_half[1];
     ViewUniform {
         clip_from_camera,
         forward: row(camera.forward, if parallel { 1.0 } else { 0.0 }),
         image_half: image_half.map(|v| v as f32),
-        tile_center: [left as f32, -down as f32],
-        tile_half: tile_half.map(|v| v as f32),
+        panel_center: [right as f32, -down as f32],
+        panel_half: panel_half.map(|v| v as f32),
         front: if parallel { 0.5 } else { (camera.near * 0.5) as f32 },
         unused: 0.0,
     }
@@ -99,8 +115,8 @@ pub fn light_view(light: &LightFrame, camera: DVec3) -> ViewUniform {
         clip_from_camera: [to_clip(u, 1.0), to_clip(v, -1.0), depth.map(|c| c as f32), [0.0, 0.0, 0.0, 1.0]],
         forward: row(-light.direction, 1.0),
         image_half: [half; 2],
-        tile_center: [0.0; 2],
-        tile_half: [half; 2],
+        panel_center: [0.0; 2],
+        panel_half: [half; 2],
         front: 0.5,
         unused: 0.0,
     }
@@ -154,6 +170,19 @@ pub fn light_planes(light: &LightFrame, camera: DVec3) -> Vec<(DVec3, f64)> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn panels_are_whole_tiles_and_within_the_limit() {
+        let (image, size, limit) = ((1000, 700), (60, 50), 400);
+        for tile in tiles(image, size) {
+            let panel = panel(image, tile, size, 2, limit);
+            assert!(panel.width * 2 <= limit && panel.height * 2 <= limit);
+            assert!(panel.x <= tile.x && tile.x + tile.width <= panel.x + panel.width);
+            assert!(panel.y <= tile.y && tile.y + tile.height <= panel.y + panel.height);
+            assert_eq!((panel.x % 60, panel.y % 50), (0, 0));
+        }
+        assert_eq!(panel((64, 64), Tile { x: 0, y: 0, width: 64, height: 64 }, (64, 64), 2, 8192).width, 64);
+    }
 
     #[test]
     fn tiles_cover_each_pixel_once() {

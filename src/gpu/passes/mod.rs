@@ -19,6 +19,8 @@ pub struct Drawing<'a> {
     pub list: &'a DrawList,
     pub indices: &'a wgpu::Buffer,
     pub view: &'a wgpu::BindGroup,
+    /// Corner and size, in samples, of the panel from the upper left corner of the targets.
+    pub viewport: [f32; 4],
     /// Samples that are drawn, from the upper left corner of the targets.
     pub area: (u32, u32),
 }
@@ -32,6 +34,8 @@ impl Drawing<'_> {
         light: Option<&wgpu::BindGroup>,
         key: impl Fn(Surface) -> PipelineKey,
     ) {
+        let [x, y, width, height] = self.viewport;
+        pass.set_viewport(x, y, width, height, 0.0, 1.0);
         pass.set_scissor_rect(0, 0, self.area.0, self.area.1);
         pass.set_bind_group(0, self.view, &[]);
         if let Some(light) = light {

@@ -13,7 +13,7 @@ struct PlainCorner {
 
 @vertex
 fn vs_ids(@location(0) position: vec3<f32>, @location(3) object: u32) -> PlainCorner {
-    return PlainCorner(to_tile(position), object + 1u);
+    return PlainCorner(to_panel(position), object + 1u);
 }
 
 @fragment
@@ -27,7 +27,7 @@ fn vs_ids_cutout(
     @location(2) uv: vec2<f32>,
     @location(3) object: u32,
 ) -> Corner {
-    return Corner(to_tile(position), object + 1u, uv);
+    return Corner(to_panel(position), object + 1u, uv);
 }
 
 @fragment

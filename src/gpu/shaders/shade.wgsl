@@ -62,7 +62,7 @@ fn vs_shade(vertex: Vertex) -> Corner {
     let cosine = dot(normal, light.sun.xyz);
 
     var corner: Corner;
-    corner.position = to_tile(vertex.position);
+    corner.position = to_panel(vertex.position);
     corner.sky = albedo * mix(light.ground.rgb, light.zenith.rgb, 0.5 + 0.5 * normal.y);
     corner.sun = albedo * light.irradiance.rgb * max(cosine, 0.0);
     corner.uv = vertex.uv;

@@ -7,12 +7,12 @@ struct Corner {
 
 @vertex
 fn vs_shadow_map(@location(0) position: vec3<f32>) -> @builtin(position) vec4<f32> {
-    return to_tile(position);
+    return to_panel(position);
 }
 
 @vertex
 fn vs_shadow_map_cutout(@location(0) position: vec3<f32>, @location(2) uv: vec2<f32>) -> Corner {
-    return Corner(to_tile(position), uv);
+    return Corner(to_panel(position), uv);
 }
 
 @fragment

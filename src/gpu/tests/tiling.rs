@@ -14,7 +14,7 @@ fn tiles_and_one_piece_agree() {
     for samples in [512, 256, 190] {
         renderer.set_tile(samples);
         let tiled = town::render(&mut renderer, &scene, demand.clone());
-        assert_eq!(whole.images[1], tiled.images[1], "object numbers in tiles of {samples} samples");
+        assert!(whole.images[1] == tiled.images[1], "object numbers differ in tiles of {samples} samples");
         let worst = rgb(&whole, 0).iter().zip(rgb(&tiled, 0)).map(|(a, b)| a.abs_diff(*b)).max();
         assert!(worst <= Some(1), "colours differ by {worst:?} in tiles of {samples} samples");
     }
