@@ -1,5 +1,69 @@
 //! Derivation: `Program` + start shape + seed → `ShapeTree`.
+//!
+//! In: a checked [`Program`], a [`StartShape`] in world coordinates (x east, y up, z south, metres), assets, limits.
+//! Out: a [`ShapeTree`] of leaves, reports, prints and diagnostics. The result depends on nothing else: not on
+//! threads, time or neighbours.
 
+mod appearance;
+mod arithmetic;
+mod array;
+pub mod assets;
+mod attribute;
+mod choice;
+mod derivation;
+mod environment;
+mod expression;
+mod form;
+mod functions;
+pub mod json;
+mod leaves;
+pub mod limits;
 pub mod material;
+mod measure;
+pub mod obj;
+mod operations;
+mod orientation;
+mod placement;
+mod projection;
 pub mod seed;
+mod shape;
+mod start;
+mod successor;
+pub mod text;
+mod topology;
 pub mod tree;
+mod value;
+
+use std::sync::Arc;
+
+pub use assets::{Assets, FileAssets, NoAssets};
+pub use limits::Limits;
+use derivation::Derivation;
+use seed::Seed;
+use tree::{Scalar, ShapeTree};
+
+use crate::cga::program::Program;
+use crate::geometry::Mesh;
+
+/// What a host gives to derive.
+#[derive(Clone, Debug)]
+pub struct StartShape {
+    /// In world coordinates. The first edge of the first face is the front (reference 3.3).
+    pub mesh: Mesh,
+    /// Without parameters; the program's own start rule if `None`.
+    pub start_rule: Option<String>,
+    /// Values of the program's attributes by name; names it does not have are ignored.
+    pub attributes: Vec<(Arc<str>, Scalar)>,
+    pub seed: Seed,
+    /// `initialShape.name`.
+    pub name: Arc<str>,
+}
+
+/// Derives one start shape. Never panics and never fails: what went wrong is in the tree's diagnostics, and the leaves
+/// made before are kept.
+pub fn derive(program: &Program, start: &StartShape, assets: &dyn Assets, limits: &Limits) -> ShapeTree {
+    Derivation::new(program, start, assets, limits).run()
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,86 @@
+//! Built-in attributes. In: an [`Attr`] and a shape. Out: its value read or written (reference 5).
+
+use std::sync::Arc;
+
+use glam::{DMat3, DVec3};
+
+use super::appearance::Appearance;
+use super::derivation::Derivation;
+use super::placement::{Frame, euler, rotation};
+use super::seed::Seed;
+use super::shape::Shape;
+use super::value::Value;
+use crate::cga::builtins::Attr;
+use crate::cga::program::Axis;
+
+fn number(axis: Axis) -> usize {
+    match axis {
+        Axis::X => 0,
+        Axis::Y => 1,
+        Axis::Z => 2,
+    }
+}
+
+pub fn read(run: &Derivation, attr: Attr, shape: &Shape) -> Value {
+    Value::Float(match attr {
+        Attr::ScopeTranslation(axis) => shape.translation()[number(axis)],
+        Attr::ScopeRotation(axis) => shape.rotation()[number(axis)],
+        Attr::ScopeSize(axis) => shape.scope.size[number(axis)],
+        Attr::ScopeElevation => shape.scope.frame.origin.y,
+        Attr::PivotPosition(axis) => shape.pivot.relative_to(&run.object).origin[number(axis)],
+        Attr::PivotOrientation(axis) => euler(&shape.pivot.relative_to(&run.object).axes)[number(axis)],
+        Attr::InitialShapeName => return Value::String(run.start.name.clone()),
+        Attr::InitialShapeStartRule => return Value::String(run.start_rule.clone()),
+        Attr::InitialShapeOrigin(axis) => run.object.origin[number(axis)],
+        Attr::InitialShapeOrientation(axis) => euler(&run.object.axes)[number(axis)],
+        Attr::Seedian => shape.seedian.unwrap_or((shape.seed.bits() >> 33) as f64),
+        Attr::SplitIndex => shape.lineage.split_index,
+        Attr::SplitTotal => shape.lineage.split_total,
+        Attr::CompSel => return Value::String(shape.lineage.comp_selector.clone()),
+        Attr::CompIndex => shape.lineage.comp_index,
+        Attr::CompTotal => shape.lineage.comp_total,
+        Attr::TrimHorizontal => return Value::Bool(shape.trim_horizontal),
+        Attr::TrimVertical => return Value::Bool(shape.trim_vertical),
+        Attr::Material(attr) => {
+            let asset = || shape.form.materials.first().and_then(|m| m.get(attr));
+            let default = || Appearance::default_value(attr);
+            return shape.appearance.get(attr).or_else(asset).unwrap_or_else(default);
+        }
+    })
+}
+
+/// Writes an attribute; geometry follows the scope (reference 5.1). Attributes that cannot be written stay.
+pub fn write(run: &Derivation, attr: Attr, value: Value, shape: &mut Shape) {
+    let changed = |old: DVec3, axis: Axis| {
+        let mut new = old;
+        new[number(axis)] = value.to_float();
+        new
+    };
+    match attr {
+        Attr::ScopeTranslation(axis) => {
+            shape.scope.frame.origin = shape.pivot.world_from_local(changed(shape.translation(), axis));
+        }
+        Attr::ScopeRotation(axis) => {
+            shape.scope.frame.axes = shape.pivot.axes * rotation(changed(shape.rotation(), axis));
+        }
+        Attr::ScopeSize(axis) => shape.scope.size = changed(shape.scope.size, axis),
+        Attr::PivotPosition(axis) => {
+            let old = shape.pivot.relative_to(&run.object);
+            shape.pivot.origin = run.object.world_from_local(changed(old.origin, axis));
+        }
+        Attr::PivotOrientation(axis) => {
+            let old = shape.pivot.relative_to(&run.object);
+            let axes: DMat3 = rotation(changed(euler(&old.axes), axis));
+            shape.pivot = Frame { origin: old.origin, axes }.placed_in(&run.object);
+        }
+        Attr::Seedian => {
+            let wanted = value.to_float();
+            shape.seedian = Some(wanted);
+            shape.seed = Seed::root(wanted.to_bits());
+        }
+        Attr::TrimHorizontal => shape.trim_horizontal = value.to_bool(),
+        Attr::TrimVertical => shape.trim_vertical = value.to_bool(),
+        Attr::Material(attr) => Arc::make_mut(&mut shape.appearance).set(attr, value),
+        _ => {}
+    }
+}

@@ -1,0 +1,259 @@
+//! One derivation in progress. In: a program, a start shape, assets, limits. Out: the [`ShapeTree`].
+//!
+//! Rules run from an explicit work list, children before later siblings, so leaves come out depth first in the order
+//! of creation. Nothing here recurses on the depth of rules.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+use super::StartShape;
+use super::assets::Assets;
+use super::leaves::Leaves;
+use super::limits::{Limits, Outcome, Stop};
+use super::placement::Frame;
+use super::shape::Shape;
+use super::start;
+use super::tree::{Report, ShapeTree};
+use super::value::Value;
+use crate::cga::program::{Program, RuleId};
+use crate::diagnostics::{Diagnostic, Diagnostics};
+use crate::source::Span;
+
+/// State of one run.
+pub struct Derivation<'p> {
+    pub program: &'p Program,
+    pub start: &'p StartShape,
+    pub assets: &'p dyn Assets,
+    pub limits: &'p Limits,
+    /// The initial shape's frame (reference 3.2).
+    pub object: Frame,
+    /// Name of the rule the initial shape was derived with.
+    pub start_rule: Arc<str>,
+    pub leaves: Leaves,
+    pub reports: BTreeMap<Arc<str>, Report>,
+    pub prints: Vec<String>,
+    printed: usize,
+    diagnostics: Diagnostics,
+    warned: BTreeSet<(&'static str, Span)>,
+    pending: Vec<Task>,
+    shapes: usize,
+    vertices: usize,
+    expression_depth: u32,
+    /// Where in the tree the running rule is, for messages about limits.
+    running: Option<Arc<Step>>,
+}
+
+/// A shape waiting for its rule.
+pub struct Task {
+    pub shape: Shape,
+    pub symbol: Symbol,
+    pub args: Vec<Value>,
+    pub step: Arc<Step>,
+}
+
+/// What a shape is called.
+#[derive(Clone, Debug)]
+pub enum Symbol {
+    Rule(RuleId),
+    /// No rule: a leaf.
+    Leaf(Arc<str>),
+}
+
+/// A place in the tree of shapes.
+#[derive(Debug)]
+pub struct Step {
+    pub parent: Option<Arc<Step>>,
+    /// Number of this shape among its parent's children.
+    pub index: u32,
+    pub depth: u32,
+    pub name: Arc<str>,
+}
+
+impl Step {
+    /// Child indices from the root.
+    pub fn path(&self) -> Arc<[u32]> {
+        let mut path = Vec::with_capacity(self.depth as usize);
+        let mut step = self;
+        while let Some(parent) = &step.parent {
+            path.push(step.index);
+            step = parent;
+        }
+        path.reverse();
+        path.into()
+    }
+
+    /// The rules that led here, shortened in the middle: `Lot > Mass > … > Mass > Mass`.
+    fn chain(&self) -> String {
+        const ENDS: usize = 3;
+        let mut names = vec![&*self.name];
+        let mut step = self;
+        while let Some(parent) = &step.parent {
+            names.push(&parent.name);
+            step = parent;
+        }
+        names.reverse();
+        if names.len() > 2 * ENDS {
+            names.splice(ENDS..names.len() - ENDS, ["…"]);
+        }
+        names.join(" > ")
+    }
+}
+
+impl<'p> Derivation<'p> {
+    pub fn new(program: &'p Program, start: &'p StartShape, assets: &'p dyn Assets, limits: &'p Limits) -> Self {
+        Derivation {
+            program,
+            start,
+            assets,
+            limits,
+            object: Frame::WORLD,
+            start_rule: "".into(),
+            leaves: Leaves::default(),
+            reports: BTreeMap::new(),
+            prints: Vec::new(),
+            printed: 0,
+            diagnostics: Diagnostics::default(),
+            warned: BTreeSet::new(),
+            pending: Vec::new(),
+            shapes: 0,
+            vertices: 0,
+            expression_depth: 0,
+            running: None,
+        }
+    }
+
+    /// Derives the start shape and everything that follows from it.
+    pub fn run(mut self) -> ShapeTree {
+        // A stop has left its reason in the diagnostics; what was made before it stays.
+        let _stopped = self.work();
+        ShapeTree {
+            leaves: self.leaves.into_list(),
+            reports: self.reports.into_values().collect(),
+            prints: self.prints,
+            diagnostics: self.diagnostics,
+        }
+    }
+
+    fn work(&mut self) -> Outcome<()> {
+        let Some(first) = start::prepare(self)? else { return Ok(()) };
+        self.pending.push(first);
+        while let Some(task) = self.pending.pop() {
+            match &task.symbol {
+                Symbol::Leaf(_) => self.leaves.push(task),
+                Symbol::Rule(rule) => {
+                    let rule = *rule;
+                    self.running = Some(task.step.clone());
+                    let children = self.derive_rule(rule, task)?;
+                    self.pending.extend(children.into_iter().rev());
+                    self.check_pending(rule)?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn check_pending(&mut self, rule: RuleId) -> Outcome<()> {
+        let limit = self.limits.max_pending;
+        if self.pending.len() > limit {
+            let span = self.program.rule(rule).span;
+            return self.stop("cga::limit-shapes", span, format!("more than {limit} shapes wait at the same time"));
+        }
+        Ok(())
+    }
+
+    /// Counts shapes about to be made.
+    pub fn count_shapes(&mut self, more: usize, span: Span) -> Outcome<()> {
+        self.shapes = self.shapes.saturating_add(more);
+        let limit = self.limits.max_shapes;
+        if self.shapes > limit {
+            return self.stop("cga::limit-shapes", span, format!("the shape grows past {limit} shapes"));
+        }
+        Ok(())
+    }
+
+    /// How many more shapes may be made.
+    pub fn shapes_left(&self) -> usize {
+        self.limits.max_shapes.saturating_sub(self.shapes)
+    }
+
+    /// Counts vertices just made.
+    pub fn count_vertices(&mut self, more: usize, span: Span) -> Outcome<()> {
+        self.vertices = self.vertices.saturating_add(more);
+        let limit = self.limits.max_vertices;
+        if self.vertices > limit {
+            return self.stop("cga::limit-vertices", span, format!("the shape grows past {limit} vertices"));
+        }
+        Ok(())
+    }
+
+    /// A child's place in the tree; refuses to go too deep.
+    pub fn step(&mut self, parent: &Arc<Step>, index: u32, name: Arc<str>, span: Span) -> Outcome<Arc<Step>> {
+        let limit = self.limits.max_depth;
+        if parent.depth >= limit {
+            return self.stop("cga::limit-depth", span, format!("rules go deeper than {limit} in `{name}`"));
+        }
+        Ok(Arc::new(Step { parent: Some(parent.clone()), index, depth: parent.depth + 1, name }))
+    }
+
+    pub fn enter_expression(&mut self, span: Span) -> Outcome<()> {
+        self.expression_depth += 1;
+        let limit = self.limits.max_expression_depth;
+        if self.expression_depth > limit {
+            return self.stop("cga::limit-calls", span, format!("functions and expressions go deeper than {limit}"));
+        }
+        Ok(())
+    }
+
+    pub fn leave_expression(&mut self) {
+        self.expression_depth -= 1;
+    }
+
+    /// Refuses a text too long to keep.
+    pub fn check_text(&mut self, length: usize, span: Span) -> Outcome<()> {
+        let limit = self.limits.max_text;
+        if length > limit {
+            return self.stop("cga::limit-text", span, format!("a text grows past {limit} bytes"));
+        }
+        Ok(())
+    }
+
+    pub fn print(&mut self, text: &str, span: Span) -> Outcome<()> {
+        self.printed += text.len() + 1;
+        self.check_text(self.printed, span)?;
+        self.prints.push(text.to_owned());
+        Ok(())
+    }
+
+    /// An error that ends the derivation, with the chain of rules that led to it.
+    fn stop<T>(&mut self, code: &'static str, span: Span, message: String) -> Outcome<T> {
+        let mut diagnostic = Diagnostic::error(code, span, message);
+        if let Some(step) = &self.running {
+            diagnostic = diagnostic.help(format!("rules: {}", step.chain()));
+        }
+        self.diagnostics.push(diagnostic);
+        Err(Stop)
+    }
+
+    /// Reports an error once per code and place.
+    pub fn error(&mut self, code: &'static str, span: Span, message: String) {
+        if self.warned.insert((code, span)) {
+            self.diagnostics.push(Diagnostic::error(code, span, message));
+        }
+    }
+
+    /// Reports a warning once per code and place.
+    pub fn warn(&mut self, code: &'static str, span: Span, message: impl FnOnce() -> String) {
+        if self.warned.insert((code, span)) {
+            self.diagnostics.push(Diagnostic::warning(code, span, message()));
+        }
+    }
+
+    /// NaN and infinity become 0 with a warning (reference 2.11).
+    pub fn finite(&mut self, x: f64, span: Span) -> f64 {
+        if x.is_finite() {
+            return x;
+        }
+        self.warn("cga::not-finite", span, || format!("this is {}, 0 is used", super::value::format_float(x)));
+        0.0
+    }
+}

@@ -1,0 +1,104 @@
+//! What a shape holds between its scope's walls. In: meshes from operations and assets. Out: [`Form`], a mesh with
+//! per-face materials, or bare edges or points left by a component split.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use super::appearance::Appearance;
+use crate::geometry::Mesh;
+
+/// The geometry of a shape, shared until it is changed. Positions are in the world as they were when it was made.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Form {
+    pub mesh: Mesh,
+    /// Edge geometry (vertex indices), only where there are no faces.
+    pub edges: Vec<[u32; 2]>,
+    /// What `comp(e)`, `comp(fe)` and `comp(v)` know about the faces they left: outward directions, one per edge or
+    /// per vertex of this form.
+    pub normals: Vec<DVec3>,
+    /// Index into `materials` plus one per face, 0 for none; empty where no face has a material of its own.
+    pub face_materials: Vec<u16>,
+    pub materials: Arc<[Appearance]>,
+    /// An inserted asset as it came (`geometry.isInstanced`).
+    pub instanced: bool,
+}
+
+impl Form {
+    pub fn from_mesh(mesh: Mesh) -> Self {
+        Form { mesh, ..Form::default() }
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.mesh.positions.is_empty()
+    }
+
+    /// The material index of a face: 0 for none.
+    pub fn face_material(&self, face: usize) -> u16 {
+        self.face_materials.get(face).copied().unwrap_or(0)
+    }
+
+    /// A form of this one's materials over new faces; `sources` names the face each new face came from.
+    pub fn derived(&self, mesh: Mesh, sources: impl Iterator<Item = Option<u32>>) -> Form {
+        let face_materials = if self.face_materials.is_empty() {
+            Vec::new()
+        } else {
+            sources.map(|source| source.map_or(0, |f| self.face_material(f as usize))).collect()
+        };
+        Form { mesh, face_materials, materials: self.materials.clone(), ..Form::default() }
+    }
+
+    /// The faces with these indices, with only the vertices they use, in their old order.
+    pub fn part(&self, faces: &[usize]) -> Form {
+        let mesh = submesh(&self.mesh, faces);
+        self.derived(mesh, faces.iter().map(|&f| Some(f as u32)))
+    }
+}
+
+/// Copies the named faces with the vertices they use, numbered in the order the faces run through them.
+fn submesh(mesh: &Mesh, faces: &[usize]) -> Mesh {
+    let mut out = Mesh::default();
+    let mut places = Renumbering::default();
+    for &f in faces {
+        let mut face = mesh.faces[f].clone();
+        for v in face.outer.iter_mut().chain(face.holes.iter_mut().flatten()) {
+            *v = places.place(*v, || out.positions.push(mesh.positions[*v as usize]));
+        }
+        out.faces.push(face);
+    }
+    out
+}
+
+/// New numbers for old vertices, in order of first use: a list while there are few, a tree for many.
+#[derive(Default)]
+struct Renumbering {
+    few: Vec<u32>,
+    many: BTreeMap<u32, u32>,
+}
+
+impl Renumbering {
+    const FEW: usize = 48;
+
+    fn place(&mut self, old: u32, add: impl FnOnce()) -> u32 {
+        let known = if self.many.is_empty() {
+            self.few.iter().position(|&v| v == old).map(|i| i as u32)
+        } else {
+            self.many.get(&old).copied()
+        };
+        if let Some(place) = known {
+            return place;
+        }
+        let next = if self.many.is_empty() { self.few.len() } else { self.many.len() } as u32;
+        if self.many.is_empty() && self.few.len() == Self::FEW {
+            self.many = self.few.iter().enumerate().map(|(i, &v)| (v, i as u32)).collect();
+        }
+        if self.many.is_empty() {
+            self.few.push(old);
+        } else {
+            self.many.insert(old, next);
+        }
+        add();
+        next
+    }
+}

@@ -1,0 +1,114 @@
+//! The built-in functions of reference 6, grouped as there.
+//!
+//! In: evaluated arguments and the surroundings. Out: a value.
+
+mod array;
+mod color;
+mod convert;
+mod geometry;
+mod list;
+mod math;
+mod text;
+
+use std::sync::Arc;
+
+use super::derivation::Derivation;
+use super::environment::Env;
+use super::expression::Evaluated;
+use super::limits::Outcome;
+use super::value::Value;
+use crate::cga::builtins::{Function, Word};
+use crate::cga::program::DrawSite;
+use crate::source::Span;
+
+/// Arguments by position.
+pub struct Input<'a> {
+    list: &'a [Evaluated],
+    pub span: Span,
+}
+
+impl<'a> Input<'a> {
+    pub fn len(&self) -> usize {
+        self.list.len()
+    }
+
+    pub fn value(&self, i: usize) -> Option<&'a Value> {
+        match self.list.get(i)? {
+            Evaluated::Value(_, value) => Some(value),
+            Evaluated::Word(_) => None,
+        }
+    }
+
+    pub fn word(&self, i: usize) -> Option<Word> {
+        match self.list.get(i)? {
+            Evaluated::Word(word) => Some(*word),
+            Evaluated::Value(..) => None,
+        }
+    }
+
+    pub fn float(&self, i: usize) -> f64 {
+        self.value(i).map_or(0.0, Value::to_float)
+    }
+
+    pub fn text(&self, i: usize) -> Arc<str> {
+        self.value(i).map_or_else(|| "".into(), Value::to_text)
+    }
+
+    /// A texture set number; others than 0..9 are 0.
+    pub fn uv_set(&self, i: usize) -> u8 {
+        let x = self.float(i);
+        if (0.0..10.0).contains(&x) { x as u8 } else { 0 }
+    }
+}
+
+/// Calls a built-in function.
+pub fn call(
+    run: &mut Derivation,
+    function: Function,
+    args: &[Evaluated],
+    site: Option<DrawSite>,
+    span: Span,
+    env: &Env,
+) -> Outcome<Value> {
+    use Function as F;
+    let input = Input { list: args, span };
+    Ok(match function {
+        F::Rand => math::rand(run, &input, env.draw(site)),
+        F::P => Value::Bool(env.draw(site) < input.float(0)),
+        F::Bool => Value::Bool(input.any(0).to_bool()),
+        F::Float => Value::Float(input.any(0).to_float()),
+        F::Str => Value::String(input.text(0)),
+        F::Print => {
+            let value = input.any(0);
+            run.print(&value.to_text(), span)?;
+            value
+        }
+        F::ListRandom => list::random(&input, env.draw(site)),
+        F::Replace => text::replace(run, &input)?,
+        F::SetElems => array::set_elems(run, &input)?,
+        F::Convert => convert::convert(run, &input, env.shape),
+        F::FileExists => {
+            let found = run.assets.locate(run.program.folder(span.source), &input.text(0));
+            Value::Bool(input.text(0).starts_with("builtin:") || found.is_some())
+        }
+        other => {
+            let value = math::call(other, &input)
+                .or_else(|| geometry::call(run, other, &input, env.shape))
+                .or_else(|| color::call(other, &input))
+                .or_else(|| array::call(other, &input))
+                .or_else(|| text::call(other, &input))
+                .or_else(|| list::call(other, &input));
+            value.unwrap_or_else(|| {
+                run.error("cga::not-supported-yet", span, format!("`{}` is a known CGA function, not supported yet", other.name()));
+                Value::Float(0.0)
+            })
+        }
+    })
+}
+
+impl Input<'_> {
+    /// The value at `i`, whatever its type; 0 if there is none.
+    fn any(&self, i: usize) -> Value {
+        self.value(i).cloned().unwrap_or(Value::Float(0.0))
+    }
+}

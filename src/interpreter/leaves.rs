@@ -1,0 +1,94 @@
+//! Finished shapes. In: shapes without a rule. Out: [`Leaf`]s in world coordinates with interned materials.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use super::appearance::Appearance;
+use super::derivation::{Symbol, Task};
+use super::form::Form;
+use super::material::Material;
+use super::tree::{Leaf, Scalar};
+
+#[derive(Default)]
+pub struct Leaves {
+    list: Vec<Leaf>,
+    attributes: Arc<[(Arc<str>, Scalar)]>,
+    materials: MaterialTable,
+}
+
+impl Leaves {
+    pub fn set_attributes(&mut self, attributes: Arc<[(Arc<str>, Scalar)]>) {
+        self.attributes = attributes;
+    }
+
+    pub fn into_list(self) -> Vec<Leaf> {
+        self.list
+    }
+
+    /// Adds a leaf: one entry per material its faces have of their own. Shapes without geometry leave nothing.
+    pub fn push(&mut self, mut task: Task) {
+        let Symbol::Leaf(rule) = &task.symbol else { return };
+        let rule = rule.clone();
+        task.shape.bake();
+        let form = std::mem::take(&mut task.shape.form);
+        if form.is_empty() {
+            return;
+        }
+        let path = task.step.path();
+        for (own, part) in parts_by_material(form) {
+            let appearance = match own.and_then(|i| part.materials.get(i)) {
+                Some(below) => Arc::new(task.shape.appearance.over(below)),
+                None => task.shape.appearance.clone(),
+            };
+            let material = self.materials.intern(&appearance);
+            let mesh = Arc::try_unwrap(part).map_or_else(|shared| shared.mesh.clone(), |form| form.mesh);
+            let (rule, path, attributes) = (rule.clone(), path.clone(), self.attributes.clone());
+            self.list.push(Leaf { rule, path, attributes, material, mesh });
+        }
+    }
+}
+
+/// The form by the materials of its faces (index into its materials, `None` for none), in order of first use.
+fn parts_by_material(form: Arc<Form>) -> Vec<(Option<usize>, Arc<Form>)> {
+    let Some(&first) = form.face_materials.first() else { return vec![(None, form)] };
+    let index = |m: u16| usize::from(m).checked_sub(1);
+    if form.face_materials.iter().all(|&m| m == first) {
+        return vec![(index(first), form)];
+    }
+    let mut groups: BTreeMap<u16, Vec<usize>> = BTreeMap::new();
+    for face in 0..form.mesh.faces.len() {
+        groups.entry(form.face_material(face)).or_default().push(face);
+    }
+    let mut groups: Vec<_> = groups.into_iter().collect();
+    groups.sort_by_key(|(_, faces)| faces[0]);
+    groups.into_iter().map(|(m, faces)| (index(m), Arc::new(form.part(&faces)))).collect()
+}
+
+/// Equal materials are one.
+#[derive(Default)]
+struct MaterialTable {
+    last: Option<(Arc<Appearance>, Arc<Material>)>,
+    /// By the bits of colour and opacity.
+    known: BTreeMap<[u64; 4], Vec<Arc<Material>>>,
+}
+
+impl MaterialTable {
+    fn intern(&mut self, appearance: &Arc<Appearance>) -> Arc<Material> {
+        if let Some((last, material)) = &self.last {
+            if Arc::ptr_eq(last, appearance) {
+                return material.clone();
+            }
+        }
+        let material = appearance.material();
+        let [r, g, b] = material.color.map(f64::to_bits);
+        let same_color = self.known.entry([r, g, b, material.opacity.to_bits()]).or_default();
+        let found = same_color.iter().find(|known| ***known == material).cloned();
+        let material = found.unwrap_or_else(|| {
+            let material = Arc::new(material);
+            same_color.push(material.clone());
+            material
+        });
+        self.last = Some((appearance.clone(), material.clone()));
+        material
+    }
+}

@@ -1,0 +1,40 @@
+//! How much one start shape may become. In: numbers of the host. Out: a typed stop.
+
+/// Bounds per start shape; a bound that is met is an error naming the chain of rules.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Limits {
+    /// Rules within rules.
+    pub max_depth: u32,
+    /// Shapes made, leaves included.
+    pub max_shapes: usize,
+    /// Shapes waiting at the same time.
+    pub max_pending: usize,
+    /// Vertices of all geometry kept (waiting shapes and leaves).
+    pub max_vertices: usize,
+    /// Expressions within expressions, function calls included.
+    pub max_expression_depth: u32,
+    /// Elements of an array (reference 1.7).
+    pub max_array: usize,
+    /// Bytes of printed text and of one string value.
+    pub max_text: usize,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Limits {
+            max_depth: 1000,
+            max_shapes: 1_000_000,
+            max_pending: 200_000,
+            max_vertices: 8_000_000,
+            max_expression_depth: 600,
+            max_array: 100_000,
+            max_text: 1 << 20,
+        }
+    }
+}
+
+/// Derivation ends here; the reason is in the diagnostics.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Stop;
+
+pub type Outcome<T> = Result<T, Stop>;

@@ -1,0 +1,63 @@
+//! `color`, `texture`, `resetMaterial` (reference 4.14, 4.17). In: colours and paths. Out: the shape's material.
+
+use std::sync::Arc;
+
+use super::super::appearance::parse_color;
+use super::super::derivation::Derivation;
+use super::super::shape::Shape;
+use super::super::value::Value;
+use super::args::Args;
+use crate::cga::builtins::Word;
+use crate::source::Span;
+
+/// `color("#rrggbb[oo]")`, `color(r, g, b [, o])`. Text that is no colour warns and changes nothing.
+pub fn color(run: &mut Derivation, args: &Args, shape: &mut Shape) {
+    let (rgb, opacity) = if let Some(Value::String(text)) = args.value(0) {
+        let Some(parsed) = parse_color(text) else {
+            run.warn("cga::bad-color", args.span, || format!("`{text}` is no colour of the form #rrggbb or #rrggbboo"));
+            return;
+        };
+        parsed
+    } else {
+        let part = |run: &mut Derivation, i: usize| args.float_or(run, i, 0.0).clamp(0.0, 1.0);
+        let rgb = [part(run, 0), part(run, 1), part(run, 2)];
+        (rgb, (args.len() > 3).then(|| part(run, 3)))
+    };
+    let appearance = Arc::make_mut(&mut shape.appearance);
+    appearance.color = rgb.map(Some);
+    appearance.opacity = opacity.or(appearance.opacity);
+}
+
+/// `texture(path)`: the colour map; "" for none.
+pub fn texture(run: &mut Derivation, args: &Args, shape: &mut Shape) {
+    let path = args.value(0).map_or_else(|| "".into(), Value::to_text);
+    let path = texture_path(run, &path, args.span);
+    Arc::make_mut(&mut shape.appearance).colormap = Some(path);
+}
+
+/// A texture's path as the host finds it; a missing file becomes the stand-in, with a warning (reference 2.11).
+pub fn texture_path(run: &mut Derivation, path: &Arc<str>, span: Span) -> Arc<str> {
+    if path.is_empty() || path.starts_with("builtin:") {
+        return path.clone();
+    }
+    match run.assets.locate(run.program.folder(span.source), path) {
+        Some(found) => found,
+        None => {
+            run.warn("cga::missing-texture", span, || format!("texture `{path}` was not found"));
+            "builtin:unknowntexture.png".into()
+        }
+    }
+}
+
+/// `resetMaterial([shape | geometry | all])`.
+pub fn reset(args: &Args, shape: &mut Shape) {
+    let word = args.word(0).unwrap_or(Word::Shape);
+    if word != Word::Geometry {
+        shape.appearance = Arc::default();
+    }
+    if word != Word::Shape {
+        let form = Arc::make_mut(&mut shape.form);
+        form.face_materials = Vec::new();
+        form.materials = Arc::default();
+    }
+}

@@ -1,0 +1,176 @@
+//! `cleanupGeometry` and `deleteHoles` (reference 4.12). In: what to clean and a tolerance 0..1. Out: close vertices
+//! merged, straight corners dropped, edges between coplanar faces dissolved, tiny and doubled faces gone.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use super::super::derivation::Derivation;
+use super::super::shape::Shape;
+use super::super::topology::Topology;
+use super::args::Args;
+use crate::cga::builtins::Word;
+use crate::geometry::{Face, Mesh};
+
+/// Least merge distance, metres, and angle, degrees, at tolerance 0.
+const NUMERICAL: f64 = 1e-6;
+
+pub fn apply(run: &mut Derivation, args: &Args, shape: &mut Shape) {
+    let word = args.word(0).unwrap_or(Word::All);
+    let tolerance = args.float_or(run, 1, 0.0).clamp(0.0, 1.0);
+    shape.bake();
+    let mut form = (*shape.form).clone();
+    if form.mesh.faces.is_empty() {
+        return;
+    }
+    merge_vertices(&mut form.mesh, tolerance.max(NUMERICAL));
+    let angle = (10.0 * tolerance).max(NUMERICAL);
+    if matches!(word, Word::Edges | Word::All) && form.face_materials.is_empty() {
+        dissolve_edges(&mut form.mesh, angle);
+    }
+    let materials = std::mem::take(&mut form.face_materials);
+    let mut kept = Vec::with_capacity(form.mesh.faces.len());
+    let least_area = if matches!(word, Word::Faces | Word::All) { tolerance.max(NUMERICAL * NUMERICAL) } else { 0.0 };
+    for i in 0..form.mesh.faces.len() {
+        let face = &form.mesh.faces[i];
+        let doubled = least_area > 0.0 && kept.iter().any(|&k: &usize| same_corners(&form.mesh.faces[k], face));
+        if face.outer.len() >= 3 && form.mesh.area(face) > least_area && !doubled {
+            kept.push(i);
+        }
+    }
+    form.face_materials = materials;
+    let mut cleaned = form.part(&kept);
+    if matches!(word, Word::Vertices | Word::All) {
+        drop_straight_corners(&mut cleaned.mesh, angle);
+    }
+    let all: Vec<usize> = (0..cleaned.mesh.faces.len()).collect();
+    let cleaned = cleaned.part(&all);
+    shape.replace(cleaned);
+}
+
+/// Fills all holes.
+pub fn delete_holes(shape: &mut Shape) {
+    let form = Arc::make_mut(&mut shape.form);
+    for face in &mut form.mesh.faces {
+        let corners = face.outer.len();
+        face.holes.clear();
+        face.uvs.iter_mut().for_each(|(_, uv)| uv.truncate(corners));
+    }
+}
+
+fn same_corners(a: &Face, b: &Face) -> bool {
+    let sorted = |f: &Face| {
+        let mut corners: Vec<u32> = f.corners().collect();
+        corners.sort_unstable();
+        corners
+    };
+    a.outer.len() == b.outer.len() && sorted(a) == sorted(b)
+}
+
+/// Vertices within `distance` become the first of them; corners that fall together become one.
+fn merge_vertices(mesh: &mut Mesh, distance: f64) {
+    let cell = |p: DVec3| (p / distance).floor().as_i64vec3().to_array();
+    let mut cells: BTreeMap<[i64; 3], Vec<u32>> = BTreeMap::new();
+    let mut place: Vec<u32> = Vec::with_capacity(mesh.positions.len());
+    for (i, &p) in mesh.positions.iter().enumerate() {
+        let [x, y, z] = cell(p);
+        let near = (-1..=1).flat_map(|a| (-1..=1).flat_map(move |b| (-1..=1).map(move |c| [x + a, y + b, z + c])));
+        let candidates = near.filter_map(|key| cells.get(&key)).flatten();
+        let found = candidates.copied().filter(|&v| mesh.positions[v as usize].distance(p) <= distance).min();
+        place.push(found.unwrap_or(i as u32));
+        if found.is_none() {
+            cells.entry([x, y, z]).or_default().push(i as u32);
+        }
+    }
+    for face in &mut mesh.faces {
+        face.outer.iter_mut().chain(face.holes.iter_mut().flatten()).for_each(|v| *v = place[*v as usize]);
+        remove_corners(face, |ring, i| ring[i] == ring[(i + ring.len() - 1) % ring.len()] && ring.len() > 1);
+    }
+}
+
+/// Removes the corners of every loop for which the test holds, with their texture coordinates.
+fn remove_corners(face: &mut Face, test: impl Fn(&[u32], usize) -> bool) {
+    let mut keep = Vec::new();
+    for ring in face.loops() {
+        keep.extend((0..ring.len()).map(|i| !test(ring, i)));
+    }
+    if keep.iter().all(|k| *k) {
+        return;
+    }
+    let mut flags = keep.iter();
+    face.outer.retain(|_| *flags.next().unwrap_or(&true));
+    for hole in &mut face.holes {
+        hole.retain(|_| *flags.next().unwrap_or(&true));
+    }
+    for (_, uv) in &mut face.uvs {
+        let mut flags = keep.iter();
+        uv.retain(|_| *flags.next().unwrap_or(&true));
+    }
+}
+
+/// Drops corners where every face that has the vertex runs straight on, except the ends of first edges.
+fn drop_straight_corners(mesh: &mut Mesh, angle: f64) {
+    let least = libm::sin(angle.to_radians());
+    let mut bent = vec![false; mesh.positions.len()];
+    for face in &mesh.faces {
+        for ring in face.loops() {
+            for (i, &v) in ring.iter().enumerate() {
+                let at = |k: usize| mesh.positions[ring[k % ring.len()] as usize];
+                let before = (at(i) - at(i + ring.len() - 1)).normalize_or_zero();
+                let after = (at(i + 1) - at(i)).normalize_or_zero();
+                bent[v as usize] |= before.cross(after).length() > least || before.dot(after) < 0.0;
+            }
+        }
+        face.outer.iter().take(2).for_each(|&v| bent[v as usize] = true);
+    }
+    for face in &mut mesh.faces {
+        remove_corners(face, |ring, i| ring.len() > 3 && !bent[ring[i] as usize]);
+    }
+}
+
+/// Joins neighbouring faces without texture coordinates and holes that lie in one plane and share one stretch of edge.
+fn dissolve_edges(mesh: &mut Mesh, angle: f64) {
+    let least = libm::cos(angle.to_radians());
+    let mut f = 0;
+    while f < mesh.faces.len() {
+        let topology = Topology::of(mesh);
+        let joined = topology.face_edges(f).iter().find_map(|&e| {
+            let edge = &topology.edges[e as usize];
+            let other = [Some(edge.first), edge.second].into_iter().flatten().find(|&o| o as usize != f)? as usize;
+            let flat = mesh.normal(&mesh.faces[f]).dot(mesh.normal(&mesh.faces[other])) >= least;
+            let face = (edge.uses == 2 && flat).then(|| join(&mesh.faces[f], &mesh.faces[other]))??;
+            Some((other, face))
+        });
+        match joined {
+            Some((other, face)) => {
+                mesh.faces[f] = face;
+                mesh.faces.remove(other);
+                f -= usize::from(other < f);
+            }
+            None => f += 1,
+        }
+    }
+}
+
+/// One loop around both faces; `None` if they share more than one stretch, or carry holes or texture coordinates.
+fn join(a: &Face, b: &Face) -> Option<Face> {
+    if !(a.holes.is_empty() && b.holes.is_empty() && a.uvs.is_empty() && b.uvs.is_empty()) {
+        return None;
+    }
+    let (n, m) = (a.outer.len(), b.outer.len());
+    let place = |v: u32| b.outer.iter().position(|&w| w == v);
+    // Edge i of a is shared if b runs it backwards.
+    let shared: Vec<bool> =
+        (0..n).map(|i| place(a.outer[(i + 1) % n]).is_some_and(|k| b.outer[(k + 1) % m] == a.outer[i])).collect();
+    let starts: Vec<usize> = (0..n).filter(|&i| shared[i] && !shared[(i + n - 1) % n]).collect();
+    let &[start] = starts.as_slice() else { return None };
+    let count = (0..n).take_while(|&k| shared[(start + k) % n]).count();
+    let end = (start + count) % n;
+    let mut outer: Vec<u32> = (0..n - count).map(|k| a.outer[(end + k) % n]).collect();
+    let from = place(a.outer[start])?;
+    outer.extend((0..m - count).map(|k| b.outer[(from + k) % m]));
+    let first = outer.iter().position(|&v| v == a.outer[0]).unwrap_or(0);
+    outer.rotate_left(first);
+    Some(Face::new(outer))
+}

@@ -1,0 +1,188 @@
+//! `comp` and the comp function (reference 4.1, 6.7). In: a selector block. Out: components as shapes in their own
+//! frames, or one value per component.
+
+use std::sync::Arc;
+
+use super::super::derivation::Derivation;
+use super::super::environment::{Env, Facet};
+use super::super::expression::facet_matches;
+use super::super::limits::Outcome;
+use super::super::shape::Shape;
+use super::super::value::Value;
+use super::Pieces;
+use super::components::Components;
+use crate::cga::program::{Component, Expr, ExprKind, ExprSelector, Selector, SelectorOperator, Type};
+use crate::source::Span;
+
+/// What selectors of the operation and of the function have in common.
+pub struct Test<'p> {
+    pub test: &'p Expr,
+    pub operator: SelectorOperator,
+    pub text: &'p Arc<str>,
+}
+
+/// Takes the current shape apart: selector by selector, each component to the first that wants it.
+pub fn pieces<'p>(
+    run: &mut Derivation<'p>,
+    component: Component,
+    keep_axes: bool,
+    selectors: &'p [Selector],
+    span: Span,
+    env: &Env,
+) -> Outcome<Pieces<'p>> {
+    let mut parent = env.shape.clone();
+    parent.bake();
+    let tests: Vec<Test> =
+        selectors.iter().map(|s| Test { test: &s.test, operator: s.operator, text: &s.text }).collect();
+    let components = Components::of(&parent, component, keep_axes, wants_roof_edges(&tests));
+    let owners = assign(run, &components, &parent, &tests, env)?;
+    let mut out: Pieces<'p> = Vec::new();
+    for (number, selector) in selectors.iter().enumerate() {
+        let members: Vec<usize> = (0..owners.len()).filter(|&i| owners[i] == Some(number)).collect();
+        let groups = grouped(&components, &parent, members, selector.operator);
+        run.count_shapes(groups.len(), span)?;
+        let total = groups.len() as f64;
+        for (index, group) in groups.iter().enumerate() {
+            let mut shape = components.shape(&parent, group);
+            shape.lineage.comp_selector = selector.text.clone();
+            shape.lineage.comp_index = index as f64;
+            shape.lineage.comp_total = total;
+            out.push((shape, &selector.body));
+        }
+    }
+    Ok(out)
+}
+
+fn grouped(components: &Components, parent: &Shape, members: Vec<usize>, operator: SelectorOperator) -> Vec<Vec<usize>> {
+    match operator {
+        SelectorOperator::Each => members.into_iter().map(|m| vec![m]).collect(),
+        SelectorOperator::All if members.is_empty() => Vec::new(),
+        SelectorOperator::All => vec![members],
+        SelectorOperator::Connected => components.connected(parent, &members),
+    }
+}
+
+/// The number of the first selector that takes each component.
+pub fn assign<'p>(
+    run: &mut Derivation<'p>,
+    components: &Components,
+    parent: &Shape,
+    tests: &[Test<'p>],
+    env: &Env,
+) -> Outcome<Vec<Option<usize>>> {
+    let mut owners = vec![None; components.len()];
+    for (number, selector) in tests.iter().enumerate() {
+        match &selector.test.kind {
+            ExprKind::Number(index) => {
+                if let Some(owner) = by_index(*index, components.len()).and_then(|i| owners.get_mut(i)) {
+                    *owner = owner.or(Some(number));
+                }
+            }
+            ExprKind::Selector(word) => {
+                for (i, owner) in owners.iter_mut().enumerate() {
+                    if owner.is_none() && facet_matches(*word, components.facet(i), parent, &run.object) {
+                        *owner = Some(number);
+                    }
+                }
+            }
+            _ => {
+                for (i, owner) in owners.iter_mut().enumerate() {
+                    if owner.is_none() && holds(run, components, parent, selector, i, env)? {
+                        *owner = Some(number);
+                    }
+                }
+            }
+        }
+    }
+    Ok(owners)
+}
+
+fn by_index(index: f64, count: usize) -> Option<usize> {
+    (index >= 0.0 && index < count as f64 && index.fract() == 0.0).then_some(index as usize)
+}
+
+/// Evaluates a test with the component as current shape; a float asks for an index.
+fn holds<'p>(
+    run: &mut Derivation<'p>,
+    components: &Components,
+    parent: &Shape,
+    selector: &Test<'p>,
+    i: usize,
+    env: &Env,
+) -> Outcome<bool> {
+    let mut shape = components.shape(parent, &[i]);
+    shape.lineage.comp_selector = selector.text.clone();
+    shape.lineage.comp_index = i as f64;
+    shape.lineage.comp_total = components.len() as f64;
+    shape.seed = parent.seed.part(COMPONENT + i as u64);
+    let value = run.eval(selector.test, &env.on_component(&shape, parent, components.facet(i)))?;
+    Ok(match value {
+        Value::Float(index) => by_index(index, components.len()) == Some(i),
+        other => other.to_bool(),
+    })
+}
+
+/// Kind of seed of a component that is only looked at.
+const COMPONENT: u64 = 4 << 40;
+
+/// Whether some selector asks for eaves, hips, valleys or ridges.
+fn wants_roof_edges(tests: &[Test]) -> bool {
+    use crate::cga::builtins::Word;
+    fn mentions(expr: &Expr) -> bool {
+        match &expr.kind {
+            ExprKind::Selector(word) => matches!(word, Word::Eave | Word::Hip | Word::Valley | Word::Ridge),
+            ExprKind::Unary(_, inner) => mentions(inner),
+            ExprKind::Binary(_, a, b) => mentions(a) || mentions(b),
+            _ => false,
+        }
+    }
+    tests.iter().any(|t| mentions(t.test))
+}
+
+/// The comp function: one entry per component in index order; with `=` the value of a group goes to all its members;
+/// unselected components give 0, false or "".
+pub fn values<'p>(
+    run: &mut Derivation<'p>,
+    component: Component,
+    keep_axes: bool,
+    selectors: &'p [ExprSelector],
+    expr: &'p Expr,
+    env: &Env,
+) -> Outcome<Value> {
+    let mut parent = env.shape.clone();
+    parent.bake();
+    let tests: Vec<Test> =
+        selectors.iter().map(|s| Test { test: &s.test, operator: s.operator, text: &s.text }).collect();
+    let components = Components::of(&parent, component, keep_axes, wants_roof_edges(&tests));
+    let owners = assign(run, &components, &parent, &tests, env)?;
+    let mut values: Vec<Option<Value>> = vec![None; components.len()];
+    for (number, selector) in selectors.iter().enumerate() {
+        let members: Vec<usize> = (0..owners.len()).filter(|&i| owners[i] == Some(number)).collect();
+        let groups = grouped(&components, &parent, members, selector.operator);
+        let total = groups.len() as f64;
+        for (index, group) in groups.iter().enumerate() {
+            let mut shape = components.shape(&parent, group);
+            shape.lineage.comp_selector = selector.text.clone();
+            shape.lineage.comp_index = index as f64;
+            shape.lineage.comp_total = total;
+            shape.seed = parent.seed.part(COMPONENT + group[0] as u64);
+            let facet: &Facet = components.facet(group[0]);
+            let value = run.eval(&selector.value, &env.on_component(&shape, &parent, facet))?;
+            group.iter().for_each(|&i| values[i] = Some(value.clone()));
+        }
+    }
+    Ok(collected(&values, expr.value))
+}
+
+fn collected(values: &[Option<Value>], known: Option<Type>) -> Value {
+    let first = values.iter().flatten().map(Value::kind).next();
+    match first.or(known) {
+        Some(Type::Bool | Type::Bools) => {
+            Value::bools(values.iter().map(|v| v.as_ref().is_some_and(Value::to_bool)).collect())
+        }
+        Some(Type::String | Type::Strings) => {
+            Value::strings(values.iter().map(|v| v.as_ref().map_or_else(|| "".into(), Value::to_text)).collect())
+        }
+        _ => Value::floats(values.iter().map(|v| v.as_ref().map_or(0.0, Value::to_float)).collect()),
+    }
+}

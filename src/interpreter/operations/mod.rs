@@ -1,0 +1,144 @@
+//! The operations of reference 4, one file each.
+//!
+//! In: evaluated arguments and a shape. Out: the shape changed, or new shapes with the blocks to run on them.
+
+mod align_to_axes;
+mod align_to_geometry;
+mod appearance;
+mod args;
+mod center;
+mod cleanup;
+pub mod comp;
+mod components;
+mod extrude;
+mod inner_rectangle;
+mod insert;
+mod mirror;
+mod offset;
+mod plan_faces;
+mod primitive;
+mod regions;
+mod report;
+mod reverse_normals;
+mod roof;
+mod roof_edges;
+mod set;
+mod set_pivot;
+mod setback;
+mod split;
+mod strips;
+mod split_sizes;
+mod transform;
+mod uv;
+mod uv_tiling;
+
+pub use set::set;
+
+use super::derivation::Derivation;
+use super::environment::Env;
+use super::expression::Evaluated;
+use super::limits::Outcome;
+use super::shape::{Scope, Shape};
+use crate::cga::builtins::Operation;
+use crate::cga::program::{Item, SplitKind, Successor};
+use crate::source::Span;
+use args::Args;
+
+/// New shapes with the blocks to run on them, in order.
+pub type Pieces<'p> = Vec<(Shape, &'p Successor)>;
+
+/// Runs an operation without a block.
+pub fn apply(
+    run: &mut Derivation,
+    operation: Operation,
+    args: &[Evaluated],
+    span: Span,
+    shape: &mut Shape,
+    reference: &Scope,
+) -> Outcome<()> {
+    use Operation as O;
+    let args = Args::new(args, span);
+    match operation {
+        O::T => transform::t(run, &args, shape),
+        O::S => transform::s(run, &args, shape),
+        O::R => transform::r(run, &args, shape),
+        O::Translate => transform::translate(run, &args, shape),
+        O::Rotate => transform::rotate(run, &args, shape),
+        O::RotateScope => transform::rotate_scope(run, &args, shape),
+        O::Center => center::apply(&args, shape, reference),
+        O::SetPivot => set_pivot::apply(run, &args, shape),
+        O::MirrorScope => mirror::scope(&args, shape),
+        O::Mirror => mirror::geometry(&args, shape),
+        O::ReverseNormals => reverse_normals::apply(shape),
+        O::AlignScopeToAxes => align_to_axes::apply(run, &args, shape),
+        O::AlignScopeToGeometry => align_to_geometry::apply(run, &args, shape),
+        O::Extrude => extrude::apply(run, &args, shape),
+        O::Offset => offset::apply(run, &args, shape),
+        O::RoofGable => roof::gable(run, &args, shape),
+        O::RoofHip => roof::hip(run, &args, shape),
+        O::RoofPyramid => roof::pyramid(run, &args, shape),
+        O::RoofShed => roof::shed(run, &args, shape),
+        O::RoofRidge => roof::ridge(run, &args, shape),
+        O::PrimitiveCube => primitive::cube(run, &args, shape),
+        O::PrimitiveQuad => primitive::quad(run, &args, shape),
+        O::PrimitiveDisk => primitive::disk(run, &args, shape),
+        O::PrimitiveCylinder => primitive::cylinder(run, &args, shape),
+        O::PrimitiveCone => primitive::cone(run, &args, shape),
+        O::PrimitiveSphere => primitive::sphere(run, &args, shape),
+        O::Insert => insert::apply(run, &args, shape)?,
+        O::CleanupGeometry => cleanup::apply(run, &args, shape),
+        O::DeleteHoles => cleanup::delete_holes(shape),
+        O::Color => appearance::color(run, &args, shape),
+        O::Texture => appearance::texture(run, &args, shape),
+        O::ResetMaterial => appearance::reset(&args, shape),
+        O::SetupProjection => uv::setup_projection(run, &args, shape),
+        O::ProjectUv => uv::project(run, &args, shape),
+        O::TranslateUv => uv::translate(run, &args, shape),
+        O::ScaleUv => uv::scale(run, &args, shape),
+        O::RotateUv => uv::rotate(run, &args, shape),
+        O::CopyUv => uv::copy(run, &args, shape),
+        O::DeleteUv => uv::delete(run, &args, shape),
+        O::NormalizeUv => uv_tiling::normalize(run, &args, shape),
+        O::TileUv => uv_tiling::tile(run, &args, shape),
+        O::Report => report::report(run, &args),
+        O::Print => report::print(run, &args)?,
+        other => not_evaluated(run, other.name(), span),
+    }
+    Ok(())
+}
+
+/// Runs an operation with a block as far as the new shapes.
+pub fn pieces<'p>(run: &mut Derivation<'p>, item: &'p Item, env: &Env) -> Outcome<Pieces<'p>> {
+    match item {
+        Item::Split { kind: SplitKind::Scope { axis, adjust }, block, span } => {
+            split::along_scope(run, *axis, *adjust, block, *span, env)
+        }
+        Item::Comp { component, keep_axes, selectors, span } => {
+            comp::pieces(run, *component, *keep_axes, selectors, *span, env)
+        }
+        Item::Regions { operation, args, selectors, span } => {
+            let evaluated = run.eval_args(args, env)?;
+            regions::pieces(run, *operation, &Args::new(&evaluated, *span), selectors, env)
+        }
+        Item::Split { span, .. }
+        | Item::Scatter { span, .. }
+        | Item::PerimeterSplit { span, .. }
+        | Item::Modify { span, .. }
+        | Item::Inline { span, .. }
+        | Item::Boolean { span, .. } => {
+            not_evaluated(run, "this form", *span);
+            Ok(Vec::new())
+        }
+        Item::Operation { .. }
+        | Item::Set { .. }
+        | Item::Call { .. }
+        | Item::Leaf { .. }
+        | Item::Discard
+        | Item::Group(_) => Ok(Vec::new()),
+    }
+}
+
+/// The checker refuses these before a run; reached only with a program that was run in spite of its errors.
+fn not_evaluated(run: &mut Derivation, name: &str, span: Span) {
+    run.error("cga::not-supported-yet", span, format!("`{name}` is a known CGA operation, not supported yet"));
+}

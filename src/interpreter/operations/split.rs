@@ -1,0 +1,177 @@
+//! `split(x | y | z)` (reference 4.3). In: a block of sizes. Out: pieces between parallel planes, closed meshes closed
+//! again, with the scopes they get.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use super::super::derivation::Derivation;
+use super::super::environment::Env;
+use super::super::form::Form;
+use super::super::limits::{Outcome, Stop};
+use super::super::shape::{Scope, Shape};
+use super::Pieces;
+use super::split_sizes::{Block, Size, Slab, resolve};
+use crate::cga::program::{Axis, Prefix, SplitBlock, SplitItem, Successor};
+use crate::geometry::cut::{self, Origin};
+use crate::source::Span;
+
+/// Splits the current shape along an axis of its scope.
+pub fn along_scope<'p>(
+    run: &mut Derivation<'p>,
+    axis: Axis,
+    adjust: bool,
+    block: &'p SplitBlock,
+    span: Span,
+    env: &Env,
+) -> Outcome<Pieces<'p>> {
+    let mut parent = env.shape.clone();
+    parent.bake();
+    let axis = match axis {
+        Axis::X => 0,
+        Axis::Y => 1,
+        Axis::Z => 2,
+    };
+    let mut bodies = Vec::new();
+    let blocks = evaluate(run, block, &mut bodies, env)?;
+    let pattern = [Block::Group { blocks, repeat: block.repeat }];
+    let total = parent.scope.size[axis].abs();
+    let Ok(slabs) = resolve(&pattern, total, run.shapes_left()) else {
+        run.count_shapes(usize::MAX, span)?;
+        return Err(Stop);
+    };
+    run.count_shapes(slabs.len(), span)?;
+    let forms = cut_at(&parent, axis, &slabs);
+    let mut pieces: Pieces<'p> = Vec::with_capacity(slabs.len());
+    for (slab, form) in slabs.iter().zip(forms) {
+        if form.is_empty() && !parent.form.is_empty() {
+            continue;
+        }
+        pieces.push((piece(&parent, axis, slab, form, adjust), bodies[slab.body]));
+    }
+    let split_total = pieces.len() as f64;
+    for (index, (piece, _)) in pieces.iter_mut().enumerate() {
+        piece.lineage.split_index = index as f64;
+        piece.lineage.split_total = split_total;
+    }
+    Ok(pieces)
+}
+
+/// Evaluates every size once, in source order.
+fn evaluate<'p>(
+    run: &mut Derivation<'p>,
+    block: &'p SplitBlock,
+    bodies: &mut Vec<&'p Successor>,
+    env: &Env,
+) -> Outcome<Vec<Block>> {
+    let mut blocks = Vec::with_capacity(block.items.len());
+    for item in &block.items {
+        blocks.push(match item {
+            SplitItem::Piece { prefix, size, body } => {
+                let x = run.eval_finite(size, env)?;
+                bodies.push(body);
+                let size = match prefix {
+                    Prefix::Absolute => Size::Absolute(x),
+                    Prefix::Relative => Size::Relative(x),
+                    Prefix::Floating => Size::Floating(x),
+                };
+                Block::Piece { size, body: bodies.len() - 1 }
+            }
+            SplitItem::Group(group) => {
+                Block::Group { blocks: evaluate(run, group, bodies, env)?, repeat: group.repeat }
+            }
+        });
+    }
+    Ok(blocks)
+}
+
+/// The geometry of every slab. What lies before the first slab goes to it, what lies behind the end of the scope to
+/// the last one if that reaches the end.
+fn cut_at(parent: &Shape, axis: usize, slabs: &[Slab]) -> Vec<Form> {
+    let Some(last) = slabs.last() else { return Vec::new() };
+    let size = parent.scope.size[axis];
+    let normal = parent.scope.frame.axes.col(axis) * size.signum();
+    let base = normal.dot(parent.scope.frame.origin);
+    let reaches_end = last.end >= size.abs();
+    let inner = slabs.len() - usize::from(reaches_end);
+    let boundaries: Vec<f64> = slabs[..inner].iter().map(|s| base + s.end).collect();
+    if parent.form.mesh.faces.is_empty() {
+        return cut_edges(&parent.form, normal, &boundaries, slabs.len());
+    }
+    if boundaries.is_empty() {
+        return vec![(*parent.form).clone()];
+    }
+    let sliced = cut::slice(&parent.form.mesh, normal, &boundaries).into_iter().take(slabs.len());
+    sliced
+        .map(|piece| {
+            let sources = piece.origins.into_iter().map(|origin| match origin {
+                Origin::Face(face) => Some(face),
+                Origin::Cap => None,
+            });
+            let form = parent.form.derived(piece.mesh, sources);
+            if form.mesh.faces.is_empty() { Form::default() } else { form }
+        })
+        .collect()
+}
+
+/// Edge geometry: each edge is cut at the planes; points go where they lie.
+fn cut_edges(form: &Form, normal: DVec3, boundaries: &[f64], pieces: usize) -> Vec<Form> {
+    let mut out = vec![Form::default(); pieces];
+    let at = |d: f64| boundaries.partition_point(|&b| b <= d);
+    let positions = &form.mesh.positions;
+    if form.edges.is_empty() {
+        for (i, p) in positions.iter().enumerate() {
+            if let Some(piece) = out.get_mut(at(normal.dot(*p))) {
+                piece.mesh.positions.push(*p);
+                piece.normals.extend(form.normals.get(i));
+            }
+        }
+        return out;
+    }
+    for (i, &[a, b]) in form.edges.iter().enumerate() {
+        let (p, q) = (positions[a as usize], positions[b as usize]);
+        let (dp, dq) = (normal.dot(p), normal.dot(q));
+        let point = |d: f64| p + (q - p) * ((d - dp) / (dq - dp));
+        for (k, piece) in out.iter_mut().enumerate() {
+            let low = if k == 0 { f64::NEG_INFINITY } else { boundaries[k - 1] };
+            let high = boundaries.get(k).copied().unwrap_or(f64::INFINITY);
+            let (from, to) = (dp.clamp(low, high), dq.clamp(low, high));
+            let inside = if dp == dq { at(dp) == k } else { from != to };
+            if inside {
+                let start = piece.mesh.positions.len() as u32;
+                piece.mesh.positions.push(if from == dp { p } else { point(from) });
+                piece.mesh.positions.push(if to == dq { q } else { point(to) });
+                piece.edges.push([start, start + 1]);
+                piece.normals.extend(form.normals.get(i));
+            }
+        }
+    }
+    out
+}
+
+/// The shape of a slab: fitted to its geometry, or (`noAdjust`) the slab of the parent's box. Signs of sizes stay.
+fn piece(parent: &Shape, axis: usize, slab: &Slab, form: Form, adjust: bool) -> Shape {
+    let mut shape = parent.clone();
+    let mut scope = parent.scope;
+    let sign = parent.scope.size[axis].signum();
+    scope.frame.origin += scope.frame.axes.col(axis) * (slab.start * sign);
+    scope.size[axis] = (slab.end - slab.start) * sign;
+    if adjust {
+        scope = Scope::around(&form.mesh.positions, scope.frame.axes).map_or(scope, |fit| signed(fit, parent.scope.size));
+    }
+    shape.scope = scope;
+    shape.binding = scope;
+    shape.form = Arc::new(form);
+    shape
+}
+
+/// The same box with the signs of other sizes.
+fn signed(mut scope: Scope, signs: DVec3) -> Scope {
+    for i in 0..3 {
+        if signs[i] < 0.0 {
+            scope.frame.origin += scope.frame.axes.col(i) * scope.size[i];
+            scope.size[i] = -scope.size[i];
+        }
+    }
+    scope
+}

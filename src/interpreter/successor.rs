@@ -1,0 +1,214 @@
+//! Rule bodies. In: a rule and the shape it rewrites. Out: the shapes it makes, in order.
+//!
+//! Seeds: a child's comes from the shape it was copied from and the place of its symbol in the sequence, a piece's
+//! from the operation's place and the piece's number, a group's from its place. So what one branch draws or makes
+//! never moves the draws of another (reference 2.9).
+
+use std::sync::Arc;
+
+use super::choice;
+use super::derivation::{Derivation, Step, Symbol, Task};
+use super::environment::Env;
+use super::limits::Outcome;
+use super::operations::{self, Pieces};
+use super::seed::Seed;
+use super::shape::{Scope, Shape};
+use super::value::Value;
+use crate::cga::builtins::Attr;
+use crate::cga::program::{Expr, Item, RuleId, Sequence, SetTarget, Successor};
+use crate::source::Span;
+
+/// A rule while it runs.
+pub struct Body {
+    pub slots: Vec<Value>,
+    children: Vec<Task>,
+    step: Arc<Step>,
+    span: Span,
+}
+
+/// Kinds of seeds below a shape's.
+const CHILD: u64 = 1 << 40;
+const PIECES: u64 = 2 << 40;
+const GROUP: u64 = 3 << 40;
+
+impl<'p> Derivation<'p> {
+    /// Runs a rule on a shape.
+    pub fn derive_rule(&mut self, id: RuleId, task: Task) -> Outcome<Vec<Task>> {
+        let rule = self.program.rule(id);
+        let Task { mut shape, args, step, .. } = task;
+        let mut body = Body { slots: args, children: Vec::new(), step, span: rule.span };
+        for (i, local) in rule.locals.iter().enumerate() {
+            let value = self.eval(local, &Env::new(&shape, &body.slots, GROUP + i as u64))?;
+            body.slots.push(value);
+        }
+        let reference = shape.scope;
+        self.execute(&rule.successor, &mut shape, &reference, &mut body)?;
+        Ok(body.children)
+    }
+
+    fn execute(
+        &mut self,
+        successor: &'p Successor,
+        shape: &mut Shape,
+        reference: &Scope,
+        body: &mut Body,
+    ) -> Outcome<()> {
+        match successor {
+            Successor::Sequence(sequence) => self.execute_sequence(sequence, shape, reference, body),
+            Successor::Case { branches, otherwise } => {
+                for (condition, branch) in branches {
+                    if self.eval_bool(condition, &Env::new(shape, &body.slots, 0))? {
+                        return self.execute(branch, shape, reference, body);
+                    }
+                }
+                self.execute(otherwise, shape, reference, body)
+            }
+            Successor::Stochastic { branches, otherwise, site } => {
+                let chosen = choice::choose(self, branches, *site, &Env::new(shape, &body.slots, 0))?;
+                self.execute(chosen.unwrap_or(otherwise), shape, reference, body)
+            }
+        }
+    }
+
+    fn execute_sequence(
+        &mut self,
+        sequence: &'p Sequence,
+        shape: &mut Shape,
+        reference: &Scope,
+        body: &mut Body,
+    ) -> Outcome<()> {
+        for (place, item) in sequence.items.iter().enumerate() {
+            self.execute_item(item, place as u64 + 1, shape, reference, body)?;
+        }
+        if sequence.implicit_leaf {
+            let name = body.step.name.clone();
+            let place = sequence.items.len() as u64 + 1;
+            self.add_child(Symbol::Leaf(name), Vec::new(), place, shape, body, body.span)?;
+        }
+        Ok(())
+    }
+
+    fn execute_item(
+        &mut self,
+        item: &'p Item,
+        place: u64,
+        shape: &mut Shape,
+        reference: &Scope,
+        body: &mut Body,
+    ) -> Outcome<()> {
+        match item {
+            Item::Operation { operation, args, span } => {
+                let args = self.eval_args(args, &Env::new(shape, &body.slots, place))?;
+                let before = Arc::as_ptr(&shape.form);
+                operations::apply(self, *operation, &args, *span, shape, reference)?;
+                if !std::ptr::eq(before, Arc::as_ptr(&shape.form)) {
+                    self.count_vertices(shape.form.mesh.positions.len(), *span)?;
+                }
+                Ok(())
+            }
+            Item::Set { target, value, span } => {
+                let value = self.eval(value, &Env::new(shape, &body.slots, place))?;
+                self.set(target, value, *span, place, shape, body)
+            }
+            Item::Call { rule, args, span } => {
+                let args = self.eval_values(args, place, shape, body)?;
+                self.add_child(Symbol::Rule(*rule), args, place, shape, body, *span)
+            }
+            Item::Leaf { symbol, args, span } => {
+                self.eval_values(args, place, shape, body)?;
+                self.add_child(Symbol::Leaf(symbol.clone()), Vec::new(), place, shape, body, *span)
+            }
+            Item::Discard => Ok(()),
+            Item::Group(inner) => {
+                let mut copy = shape.clone();
+                copy.seed = shape.seed.part(GROUP + place);
+                let reference = copy.scope;
+                self.execute(inner, &mut copy, &reference, body)
+            }
+            other => {
+                let seed = shape.seed.part(PIECES + place);
+                let pieces = operations::pieces(self, other, &Env::new(shape, &body.slots, place))?;
+                self.execute_pieces(pieces, seed, body)
+            }
+        }
+    }
+
+    /// Runs each piece's block on the piece.
+    fn execute_pieces(&mut self, pieces: Pieces<'p>, seed: Seed, body: &mut Body) -> Outcome<()> {
+        for (number, (mut piece, successor)) in pieces.into_iter().enumerate() {
+            piece.seed = seed.part(number as u64);
+            let reference = piece.scope;
+            self.count_vertices(piece.form.mesh.positions.len(), body.span)?;
+            self.execute(successor, &mut piece, &reference, body)?;
+        }
+        Ok(())
+    }
+
+    fn eval_values(&mut self, args: &'p [Expr], place: u64, shape: &Shape, body: &Body) -> Outcome<Vec<Value>> {
+        if args.is_empty() {
+            return Ok(Vec::new());
+        }
+        let env = Env::new(shape, &body.slots, place);
+        args.iter().map(|arg| self.eval(arg, &env)).collect()
+    }
+
+    fn add_child(
+        &mut self,
+        symbol: Symbol,
+        args: Vec<Value>,
+        place: u64,
+        shape: &Shape,
+        body: &mut Body,
+        span: Span,
+    ) -> Outcome<()> {
+        self.count_shapes(1, span)?;
+        let name = match &symbol {
+            Symbol::Rule(rule) => self.program.rule(*rule).name.clone(),
+            Symbol::Leaf(name) => name.clone(),
+        };
+        let step = self.step(&body.step, body.children.len() as u32, name, span)?;
+        let mut shape = shape.clone();
+        shape.seed = shape.seed.part(CHILD + place);
+        shape.seedian = None;
+        body.children.push(Task { shape, symbol, args, step });
+        Ok(())
+    }
+
+    fn set(
+        &mut self,
+        target: &'p SetTarget,
+        value: Value,
+        span: Span,
+        place: u64,
+        shape: &mut Shape,
+        body: &Body,
+    ) -> Outcome<()> {
+        let attr = match target {
+            SetTarget::Attribute(id) => {
+                let kind = self.program.attribute(*id).kind;
+                let value = kind.map_or(value.clone(), |kind| value.converted(kind));
+                Arc::make_mut(&mut shape.attributes)[id.0 as usize] = value;
+                return Ok(());
+            }
+            SetTarget::Builtin(attr) => *attr,
+            SetTarget::Computed(name) => {
+                let name = self.eval(name, &Env::new(shape, &body.slots, place))?.to_text();
+                match self.program.attribute_named(&name) {
+                    Some(id) => {
+                        Arc::make_mut(&mut shape.attributes)[id.0 as usize] = value;
+                        return Ok(());
+                    }
+                    None => match Attr::from_name(&name).filter(|info| info.writable) {
+                        Some(info) => info.attr,
+                        None => {
+                            self.warn("cga::unknown-attribute", span, || format!("there is no attribute `{name}` to set"));
+                            return Ok(());
+                        }
+                    },
+                }
+            }
+        };
+        operations::set(self, attr, value, span, shape);
+        Ok(())
+    }
+}
