@@ -1,7 +1,14 @@
 //! Rules: `SourceFile → Ast → Program`.
+//!
+//! In: a rule file and what it imports. Out: a checked [`program::Program`], or diagnostics.
 
 pub mod ast;
 pub mod builtins;
+mod check;
 pub mod codes;
+mod dump;
 pub mod parse;
 pub mod program;
+
+pub use check::{CompileOptions, compile, compile_text, styles};
+pub use dump::{dump_ast, dump_program};

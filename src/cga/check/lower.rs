@@ -1,0 +1,250 @@
+//! In: the tables of names. Out: the program, every body resolved.
+
+use std::sync::Arc;
+
+use super::instance::{Default, Tables, Value};
+use super::order;
+use super::types::Types;
+use crate::cga::ast::{self, Text};
+use crate::cga::codes;
+use crate::cga::program::{self, AttributeId, Parameter, Program, RuleFile, RuleId, Type};
+use crate::diagnostics::{Diagnostic, Diagnostics};
+use crate::source::Span;
+
+/// Rounds of type inference before mistakes are reported. Each round carries types one call further; the survey's
+/// deepest chains of untyped parameters need two.
+const ROUNDS: usize = 2;
+
+/// Resolves one body: the names in scope and what is learnt about them.
+pub struct Body<'c, 'a> {
+    pub tables: &'c Tables<'a>,
+    pub types: &'c Types,
+    /// Instance in which names are looked up.
+    pub scope: usize,
+    /// The attribute whose default this is.
+    pub attribute: Option<AttributeId>,
+    /// Name and type of each slot: parameters, then locals.
+    pub slots: Vec<(Arc<str>, Option<Type>)>,
+    pub parameters: usize,
+    pub draws: u32,
+    /// Names are selectors first.
+    pub in_selector: bool,
+    pub diagnostics: Diagnostics,
+}
+
+/// Makes the program. Where the text is `broken` already, only mistakes are looked for.
+pub fn lower(mut tables: Tables<'_>, diagnostics: &mut Diagnostics, broken: bool) -> Option<Program> {
+    let mut types = unknown_types(&tables);
+    for _ in 0..ROUNDS {
+        types = infer(&bodies(&tables, &types, &mut Diagnostics::default()));
+    }
+    clashes(&mut tables, &types);
+    diagnostics.extend(std::mem::take(&mut tables.diagnostics));
+    let mut program = bodies(&tables, &types, diagnostics);
+    program.initial_order = order::initial_order(&program, diagnostics);
+    (!broken && !diagnostics.has_errors()).then_some(program)
+}
+
+fn unknown_types(tables: &Tables<'_>) -> Types {
+    let arity = |d: &ast::Definition| d.parameters.as_ref().map_or(0, Vec::len);
+    Types {
+        rules: tables.rules.iter().map(|r| vec![None; r.parameters.len()]).collect(),
+        functions: tables.functions.iter().map(|f| (vec![None; arity(f.definition)], None)).collect(),
+        attributes: vec![None; tables.attributes.len()],
+    }
+}
+
+/// The types a round has found.
+fn infer(program: &Program) -> Types {
+    let kinds = |parameters: &[Parameter]| parameters.iter().map(|p| p.kind).collect();
+    Types {
+        rules: program.rules.iter().map(|r| kinds(&r.parameters)).collect(),
+        functions: program.functions.iter().map(|f| (kinds(&f.parameters), f.body.value)).collect(),
+        attributes: program.attributes.iter().map(|a| a.kind).collect(),
+    }
+}
+
+/// Definitions with as many parameters as another and no different types.
+fn clashes(tables: &mut Tables<'_>, types: &Types) {
+    let distinct = |a: &[Option<Type>], b: &[Option<Type>]| {
+        a.iter().zip(b).any(|(a, b)| a.zip(*b).is_some_and(|(a, b)| a != b))
+    };
+    let mut found: Vec<(Span, Arc<str>)> = Vec::new();
+    for instance in &tables.instances {
+        for (name, rules) in &instance.rules {
+            for (i, b) in rules.iter().enumerate() {
+                let parameters = |id: &RuleId| &types.rules[id.0 as usize][..];
+                let same = |a: &RuleId| parameters(a).len() == parameters(b).len() && !parameters(b).is_empty();
+                if rules[..i].iter().any(|a| same(a) && !distinct(parameters(a), parameters(b))) {
+                    found.push((tables.rules[b.0 as usize].span, name.clone()));
+                }
+            }
+        }
+        for (name, values) in &instance.values {
+            let parameters = |value: &Value| match value {
+                Value::Function(id) => &types.functions[id.0 as usize].0[..],
+                Value::Attribute(_) => &[],
+            };
+            for (i, b) in values.iter().enumerate() {
+                let same = |a: &Value| parameters(a).len() == parameters(b).len() && !parameters(b).is_empty();
+                if let Value::Function(id) = b
+                    && values[..i].iter().any(|a| same(a) && !distinct(parameters(a), parameters(b)))
+                {
+                    found.push((tables.functions[id.0 as usize].definition.name.span, name.clone()));
+                }
+            }
+        }
+    }
+    for (span, name) in found {
+        tables.duplicate(span, &name);
+    }
+}
+
+/// One round over all bodies.
+fn bodies(tables: &Tables<'_>, types: &Types, diagnostics: &mut Diagnostics) -> Program {
+    let rules: Vec<program::Rule> = (0..tables.rules.len()).map(|id| rule(tables, types, id, diagnostics)).collect();
+    let functions = (0..tables.functions.len()).map(|id| function(tables, types, id, diagnostics)).collect();
+    let attributes = (0..tables.attributes.len()).map(|id| attribute(tables, types, id, diagnostics)).collect();
+    let start_rules = rules.iter().enumerate().filter(|(id, r)| r.is_start && tables.rules[*id].scope == 0);
+    let start_rules = start_rules.map(|(id, _)| RuleId(id as u32)).collect();
+    let files = tables.files.iter().map(|f| RuleFile { source: f.ast.source, folder: f.folder.clone() }).collect();
+    Program { rules, functions, attributes, initial_order: Vec::new(), start_rules, files }
+}
+
+fn rule(tables: &Tables<'_>, types: &Types, id: usize, diagnostics: &mut Diagnostics) -> program::Rule {
+    let entry = &tables.rules[id];
+    let mut body = Body::new(tables, types, entry.scope);
+    body.parameters(entry.parameters, &types.rules[id]);
+    let locals = body.locals(entry.locals);
+    let successor = body.successor(entry.successor, true);
+    let out = program::Rule {
+        name: entry.name.clone(),
+        path: format!("{}/{}", entry.name, entry.parameters.len()).into(),
+        parameters: body.found_parameters(),
+        locals,
+        successor,
+        draws: body.draws,
+        is_start: entry.is_start,
+        span: entry.span,
+    };
+    diagnostics.extend(body.diagnostics);
+    out
+}
+
+fn function(tables: &Tables<'_>, types: &Types, id: usize, diagnostics: &mut Diagnostics) -> program::Function {
+    let entry = &tables.functions[id];
+    let parameters = entry.definition.parameters.as_deref().unwrap_or_default();
+    let mut body = Body::new(tables, types, entry.scope);
+    body.parameters(parameters, &types.functions[id].0);
+    let locals = body.locals(&entry.definition.locals);
+    let value = body.expression(&entry.definition.value);
+    let out = program::Function {
+        name: entry.name.clone(),
+        path: format!("{}/{}", entry.name, parameters.len()).into(),
+        parameters: body.found_parameters(),
+        locals,
+        body: value,
+        draws: body.draws,
+        span: entry.definition.name.span,
+    };
+    diagnostics.extend(body.diagnostics);
+    out
+}
+
+fn attribute(tables: &Tables<'_>, types: &Types, id: usize, diagnostics: &mut Diagnostics) -> program::Attribute {
+    let entry = &tables.attributes[id];
+    let mut locals = Vec::new();
+    let mut body = match entry.default {
+        Default::Overridden { scope, .. } => Body::new(tables, types, scope),
+        Default::Written(_) | Default::Propagated(_) => Body::new(tables, types, entry.scope),
+    };
+    body.attribute = Some(AttributeId(id as u32));
+    let default = match entry.default {
+        Default::Written(definition) => {
+            body.map_attribute(definition);
+            body.parameters(definition.parameters.as_deref().unwrap_or_default(), &[]);
+            locals = body.locals(&definition.locals);
+            body.expression(&definition.value)
+        }
+        Default::Overridden { value, .. } => body.expression(value),
+        Default::Propagated(outer) => {
+            let value = types.attributes[outer.0 as usize];
+            program::Expr { kind: program::ExprKind::Attribute(outer), value, span: entry.span }
+        }
+    };
+    let out = program::Attribute {
+        name: entry.name.clone(),
+        kind: default.value,
+        is_const: entry.is_const,
+        locals,
+        default,
+        draws: body.draws,
+        annotations: entry.annotations.clone(),
+        span: entry.span,
+    };
+    diagnostics.extend(body.diagnostics);
+    out
+}
+
+impl<'c, 'a> Body<'c, 'a> {
+    fn new(tables: &'c Tables<'a>, types: &'c Types, scope: usize) -> Self {
+        Body {
+            tables,
+            types,
+            scope,
+            attribute: None,
+            slots: Vec::new(),
+            parameters: 0,
+            draws: 0,
+            in_selector: false,
+            diagnostics: Diagnostics::default(),
+        }
+    }
+
+    pub fn error(&mut self, code: &'static str, span: Span, message: impl Into<String>) {
+        self.diagnostics.push(Diagnostic::error(code, span, message));
+    }
+
+    fn parameters(&mut self, names: &[Text], known: &[Option<Type>]) {
+        for (i, name) in names.iter().enumerate() {
+            self.slot(name, known.get(i).copied().flatten());
+        }
+        self.parameters = names.len();
+    }
+
+    fn locals(&mut self, locals: &[(Text, ast::Expr)]) -> Vec<program::Expr> {
+        let mut out = Vec::new();
+        for (name, value) in locals {
+            let value = self.expression(value);
+            self.slot(name, value.value);
+            out.push(value);
+        }
+        out
+    }
+
+    fn slot(&mut self, name: &Text, kind: Option<Type>) {
+        if self.slots.iter().any(|(other, _)| *other == name.text) {
+            self.error(codes::DUPLICATE_PARAMETER, name.span, format!("two parameters or locals are named `{}`", name.text));
+        }
+        self.slots.push((name.text.clone(), kind));
+    }
+
+    fn found_parameters(&self) -> Vec<Parameter> {
+        let parameter = |(name, kind): &(Arc<str>, Option<Type>)| Parameter { name: name.clone(), kind: *kind };
+        self.slots[..self.parameters].iter().map(parameter).collect()
+    }
+
+    /// `attr streetWidth(edge) = 0` is the only attribute with a parameter (reference 2.6).
+    fn map_attribute(&mut self, definition: &ast::Definition) {
+        let Some(parameters) = &definition.parameters else { return };
+        let span = definition.name.span;
+        match (&*definition.name.text, parameters.len()) {
+            ("streetWidth", 1) => self.form(crate::cga::builtins::Form::StreetWidth, span),
+            (_, 0) => {}
+            (name, _) => {
+                let message = format!("`{name}` cannot have parameters; leave out `attr` or `const` to make it a function");
+                self.error(codes::MISPLACED_DECLARATION, span, message);
+            }
+        }
+    }
+}
