@@ -164,6 +164,55 @@ fn text_that_is_no_recipe_at_all_is_reported_and_what_follows_is_still_read() {
 }
 
 #[test]
+fn a_block_that_is_left_open_does_not_swallow_the_next_one() {
+    for block in super::schema::BLOCKS {
+        let text = format!("camera d {{ fov 30deg\n{} x {{\n}}\n", block.kind);
+        let found = mistakes(&text);
+        assert_eq!(found.iter().filter(|(code, _)| *code == "spec::syntax").count(), 1, "{text} {found:?}");
+        assert!(!found.iter().any(|(code, _)| *code == "spec::unknown-property"), "{text} {found:?}");
+    }
+}
+
+/// Cuts, repeats and swaps pieces of recipes: whatever comes out, checking it ends with diagnostics or a spec.
+#[test]
+fn no_text_makes_checking_panic() {
+    let folder = tempfile::tempdir().expect("a temporary folder can be made");
+    let access = Access::new(folder.path()).expect("the folder exists");
+    let path = folder.path().join("r.render");
+    let source: Vec<char> = SKETCH.chars().collect();
+    let rounds = std::env::var("MANSARD_FUZZ_ROUNDS").ok().and_then(|n| n.parse().ok()).unwrap_or(150u64);
+    for round in 0..rounds {
+        let seed = crate::interpreter::seed::Seed::root(round);
+        let mut text = source.clone();
+        for step in 0..1 + round % 5 {
+            let number = |name: &str, below: usize| (seed.part(step).named(name).unit() * below as f64) as usize;
+            let from = number("from", text.len());
+            let length = number("length", 40).min(text.len() - from);
+            let piece: Vec<char> = match number("kind", 4) {
+                0 => text.drain(from..from + length).collect(),
+                1 => text[from..from + length].to_vec(),
+                2 => ["{", "}", "(", "\"", "$x", "é", "1e999m", "x", "[", "!", "choice(", ",", "\n"]
+                    [number("text", 13)]
+                .chars()
+                .collect(),
+                _ => text[from..from + length].iter().rev().copied().collect(),
+            };
+            let at = number("at", text.len() + 1);
+            text.splice(at..at, piece);
+        }
+        let text: String = text.into_iter().collect();
+        fs::write(&path, &text).expect("the temporary folder can be written");
+        let mut sources = SourceMap::default();
+        let (spec, diagnostics) = load(&path.display().to_string(), &access, &mut sources, &[]);
+        assert_eq!(spec.is_none(), diagnostics.has_errors(), "{text}");
+        for diagnostic in diagnostics.iter() {
+            render(diagnostic, &sources, false);
+        }
+        dump_ast(&sources.files()[0]);
+    }
+}
+
+#[test]
 fn names_that_were_meant_are_offered() {
     let text = small("dataset d { views sattelite\n layout levirr }").replace("camera c", "camera satellite");
     let (_, diagnostics, _) = load_files(&[("r.render", &text)], &[]);
