@@ -168,6 +168,60 @@ impl BlockShape {
 mod tests {
     use super::BLOCKS;
 
+    /// The page's row or list of a key names it in backquotes inside its block's section.
+    #[test]
+    fn the_documentation_names_every_key_and_says_which_come_later() {
+        let page = include_str!("../../docs/render.md");
+        for block in BLOCKS {
+            let start = page.find(&format!("\n### {}\n", block.kind)).expect("every block has a section");
+            let section = &page[start + 5..];
+            let section = &section[..section.find("\n##").unwrap_or(section.len())];
+            for key in block.keys {
+                let row =
+                    section.lines().find(|line| line.starts_with('|') && line.contains(&format!("`{}`", key.key)));
+                let row = row.unwrap_or_else(|| panic!("{} {} is not in the table", block.kind, key.key));
+                assert!(
+                    key.evaluated || block.kind == "pass" || row.contains("**later**"),
+                    "{} {}",
+                    block.kind,
+                    key.key
+                );
+                for clause in key.clauses.iter().filter(|_| key.evaluated) {
+                    assert!(row.contains(clause), "{} {} {clause}", block.kind, key.key);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn every_error_code_is_documented() {
+        let page = include_str!("../../docs/render.md");
+        for source in [
+            include_str!("mod.rs"),
+            include_str!("parse.rs"),
+            include_str!("properties.rs"),
+            include_str!("expression.rs"),
+            include_str!("inputs.rs"),
+            include_str!("inherit.rs"),
+            include_str!("read.rs"),
+            include_str!("check/mod.rs"),
+            include_str!("check/values.rs"),
+            include_str!("check/filters.rs"),
+            include_str!("check/scene.rs"),
+            include_str!("check/change.rs"),
+            include_str!("check/camera.rs"),
+            include_str!("check/light.rs"),
+            include_str!("check/quality.rs"),
+            include_str!("check/pass.rs"),
+            include_str!("check/dataset.rs"),
+        ] {
+            for code in source.split("\"spec::").skip(1).filter_map(|rest| rest.split('"').next()) {
+                let named = page.contains(&format!("`{code}`")) || page.contains(&format!("`spec::{code}`"));
+                assert!(named, "spec::{code} is not in docs/render.md");
+            }
+        }
+    }
+
     #[test]
     fn a_clause_is_never_a_key_of_its_block_except_inside_levels() {
         for block in BLOCKS {
