@@ -12,8 +12,14 @@ use crate::geometry::plane::PlaneFrame;
 use crate::geometry::polygon::{ring_contains, signed_area};
 use crate::geometry::{Face, Mesh, Plane};
 
+/// A body has at least this many faces: fewer are sheets, which get no caps.
+const LEAST_FACES: usize = 4;
+
 /// Per face: is its component (faces joined by shared vertices) closed, every edge run once each way?
 pub(super) fn faces_of_closed_components(mesh: &Mesh) -> Vec<bool> {
+    if mesh.faces.len() < LEAST_FACES {
+        return vec![false; mesh.faces.len()];
+    }
     let mut leader: Vec<u32> = (0..mesh.positions.len() as u32).collect();
     for face in &mesh.faces {
         let mut corners = face.corners();
@@ -24,10 +30,8 @@ pub(super) fn faces_of_closed_components(mesh: &Mesh) -> Vec<bool> {
         }
     }
     let mut open = vec![false; mesh.positions.len()];
-    for ((a, _), count) in balance(mesh.faces.iter().flat_map(Face::edges)) {
-        if count != 0 {
-            open[find(&mut leader, a) as usize] = true;
-        }
+    for run in unmatched(mesh.faces.iter().flat_map(|f| f.edges().map(|(a, b)| (a, b, 0)))) {
+        open[find(&mut leader, run.from) as usize] = true;
     }
     let mut is_closed = |f: &Face| f.outer.first().is_some_and(|&v| !open[find(&mut leader, v) as usize]);
     mesh.faces.iter().map(&mut is_closed).collect()
@@ -41,16 +45,22 @@ fn find(leader: &mut [u32], mut i: u32) -> u32 {
     i
 }
 
-/// Runs of every edge (lesser vertex first) that way, less runs the other way.
-fn balance(edges: impl Iterator<Item = (u32, u32)>) -> BTreeMap<(u32, u32), i32> {
-    let mut runs = BTreeMap::new();
-    for (a, b) in edges {
-        *runs.entry((a.min(b), a.max(b))).or_insert(0) += if a < b { 1 } else { -1 };
+/// The runs (from, to, face) of edges that have no run the other way to match, in order of vertices.
+fn unmatched(runs: impl Iterator<Item = (u32, u32, usize)>) -> Vec<CapEdge> {
+    let mut runs: Vec<CapEdge> = runs.map(|(from, to, face)| CapEdge { from, to, face }).collect();
+    let edge = |r: &CapEdge| (r.from.min(r.to), r.from.max(r.to));
+    runs.sort_unstable_by_key(|r| (edge(r), r.from > r.to, r.face));
+    let mut left = Vec::new();
+    for same in runs.chunk_by(|r, s| edge(r) == edge(s)) {
+        let forth = same.iter().filter(|r| r.from < r.to).count();
+        let (forth, back) = same.split_at(forth);
+        let matched = forth.len().min(back.len());
+        left.extend(forth[matched..].iter().chain(&back[matched..]).copied());
     }
-    runs
+    left
 }
 
-/// A directed edge of the cap and the source face on its other side.
+/// A run of an edge and the source face it belongs to, or (turned over) lies beside.
 #[derive(Clone, Copy)]
 struct CapEdge {
     from: u32,
@@ -69,21 +79,9 @@ pub(super) fn caps(
 ) -> Vec<Face> {
     let own = faces.iter().filter(|(index, _)| closed[*index]);
     let in_plane = own.flat_map(|(index, f)| f.edges().map(move |(a, b)| (a, b, *index)));
-    let in_plane: Vec<(u32, u32, usize)> = in_plane.filter(|&(a, b, _)| on_plane(a) && on_plane(b)).collect();
-    if in_plane.is_empty() {
-        return Vec::new();
-    }
-    let mut runs = balance(in_plane.iter().map(|&(a, b, _)| (a, b)));
-    let mut edges: Vec<CapEdge> = Vec::new();
-    for &(a, b, face) in &in_plane {
-        let count = runs.get_mut(&(a.min(b), a.max(b))).expect("every edge was counted");
-        let this_way = if a < b { 1 } else { -1 };
-        if *count * this_way > 0 {
-            *count -= this_way;
-            edges.push(CapEdge { from: b, to: a, face });
-        }
-    }
+    let mut edges = unmatched(in_plane.filter(|&(a, b, _)| on_plane(a) && on_plane(b)));
     let Some(&CapEdge { from, .. }) = edges.first() else { return Vec::new() };
+    edges.iter_mut().for_each(|e| std::mem::swap(&mut e.from, &mut e.to));
     let outward = if side == Side::Behind { *plane } else { plane.flipped() };
     let frame = PlaneFrame::of_plane(&outward, positions[from as usize]);
     let plan = |v: u32| frame.to_plan(positions[v as usize]);
@@ -96,7 +94,7 @@ fn loops(edges: Vec<CapEdge>, plan: impl Fn(u32) -> DVec2) -> Vec<Vec<u32>> {
     let mut leaving: BTreeMap<u32, Vec<CapEdge>> = BTreeMap::new();
     edges.iter().for_each(|&e| leaving.entry(e.from).or_default().push(e));
     let mut by_face = edges;
-    by_face.sort_by_key(|e| e.face);
+    by_face.sort_by_key(|e| (e.face, e.from, e.to));
     let mut loops = Vec::new();
     for first in by_face {
         let Some(start) = leaving.get_mut(&first.from) else { continue };

@@ -93,12 +93,25 @@ impl<'a> CutFace<'a> {
                 Chains::Some(some) => chains.extend(some),
             }
         }
+        if let [_] = chains[..]
+            && outers.is_empty()
+            && holes.is_empty()
+        {
+            return self.single(chains.remove(0));
+        }
         let along = if side == Side::Behind { self.along } else { -self.along };
         outers.extend(link(chains, |c| positions[c.vertex as usize].dot(along)));
         outers.iter_mut().for_each(|l| start_with_first_edge(l));
         outers.retain(|l| l.len() >= 3);
         outers.sort_by_key(|l| first_edge(l));
         self.nest(outers, holes, positions)
+    }
+
+    /// The usual case: one chain, closed by one edge along the cut.
+    fn single(&self, mut ring: Vec<Corner>) -> Vec<Face> {
+        close(&mut ring);
+        start_with_first_edge(&mut ring);
+        if ring.len() >= 3 { vec![self.face(&[ring])] } else { Vec::new() }
     }
 
     /// Cuts one loop into the chains on the wanted side: edges with an end there, and edges in the plane that have
@@ -195,8 +208,7 @@ fn link(chains: Vec<Vec<Corner>>, place: impl Fn(&Corner) -> f64) -> Vec<Vec<Cor
             ring.extend(&chains[i]);
             let end = ring.last_mut().expect("a chain has corners");
             end.edge = None;
-            let same = end.vertex == chains[next[i]][0].vertex;
-            if same {
+            if end.vertex == chains[next[i]][0].vertex {
                 ring.pop();
             }
             i = next[i];
@@ -206,6 +218,16 @@ fn link(chains: Vec<Vec<Corner>>, place: impl Fn(&Corner) -> f64) -> Vec<Vec<Cor
         }
     }
     loops
+}
+
+/// Marks the edge from the end of a chain to its start as new; ends that are one vertex become one.
+fn close(chain: &mut Vec<Corner>) {
+    let start = chain[0].vertex;
+    let end = chain.last_mut().expect("a chain has corners");
+    end.edge = None;
+    if end.vertex == start {
+        chain.pop();
+    }
 }
 
 fn first_edge(ring: &[Corner]) -> usize {
