@@ -74,6 +74,7 @@ fn polygons(
     match refusal {
         Some(why) if all.is_empty() => return Err(why),
         Some(why) => notes.push(format!("a part was left out: {why}")),
+        None if all.is_empty() => return Err("the outline encloses no area".to_owned()),
         None => {}
     }
     if overlapping {

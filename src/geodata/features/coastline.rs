@@ -9,8 +9,17 @@ use super::area::clip_line;
 use crate::geometry::polygon::signed_area;
 use crate::geometry::{Polygon, Ring};
 
-/// Sea polygons before repair: outer ring and holes. The error says why the sea cannot be closed.
-pub fn sea(ways: &[Vec<DVec2>], area: &[DVec2]) -> Result<Vec<Polygon>, String> {
+/// The sea of an area.
+#[derive(Debug, Default)]
+pub struct Sea {
+    /// Before repair: outer ring and holes.
+    pub polygons: Vec<Polygon>,
+    /// The longest way, in metres, that a coastline was continued straight to the border.
+    pub bridged: f64,
+}
+
+/// The sea, or why it cannot be closed.
+pub fn sea(ways: &[Vec<DVec2>], area: &[DVec2]) -> Result<Sea, String> {
     let (mut islands, mut pieces) = (Vec::new(), Vec::new());
     let mut basins: Vec<Ring> = Vec::new();
     for chain in join(ways) {
@@ -29,7 +38,7 @@ pub fn sea(ways: &[Vec<DVec2>], area: &[DVec2]) -> Result<Vec<Polygon>, String> 
         }
         pieces.extend(parts);
     }
-    let mut outers = close_along_border(pieces, area)?;
+    let (mut outers, bridged) = close_along_border(pieces, area)?;
     outers.extend(basins);
     if outers.is_empty() && !islands.is_empty() {
         outers.push(area.to_vec());
@@ -48,7 +57,7 @@ pub fn sea(ways: &[Vec<DVec2>], area: &[DVec2]) -> Result<Vec<Polygon>, String> 
             hole.reverse();
         }
     }
-    Ok(polygons)
+    Ok(Sea { polygons, bridged })
 }
 
 /// Joins lines where one ends and another starts, keeping their direction.
@@ -84,21 +93,33 @@ fn border_place(point: DVec2, area: &[DVec2]) -> f64 {
     best
 }
 
-/// Greatest distance of a coastline's end from the border, metres, that is bridged by a straight line.
-const END_GAP: f64 = 50.0;
+/// Greatest distance of a coastline's end from the border that is bridged by a straight line, as a share of the
+/// area's size (extracts end at borders of their own).
+const END_GAP: f64 = 0.25;
 
-fn close_along_border(pieces: Vec<Vec<DVec2>>, area: &[DVec2]) -> Result<Vec<Ring>, String> {
+/// A cut lies on the border up to this distance, metres.
+const ON_BORDER: f64 = 1e-6;
+
+fn close_along_border(pieces: Vec<Vec<DVec2>>, area: &[DVec2]) -> Result<(Vec<Ring>, f64), String> {
     let on_border = |t: f64| {
         let i = (t.floor() as usize) % area.len();
         area[i].lerp(area[(i + 1) % area.len()], t - t.floor())
     };
+    let limit = END_GAP * signed_area(area).abs().sqrt();
+    let mut bridged = 0.0;
     let mut open: Vec<(f64, f64, Vec<DVec2>)> = Vec::new();
-    for piece in pieces {
+    for mut piece in pieces {
         let (start, end) = (piece[0], piece[piece.len() - 1]);
         let (enter, leave) = (border_place(start, area), border_place(end, area));
-        let gap = start.distance(on_border(enter)).max(end.distance(on_border(leave)));
-        if gap > END_GAP {
-            return Err(format!("the coastline ends inside the area, {gap:.0} m from its border"));
+        for (at, place, index) in [(start, enter, 0), (end, leave, usize::MAX)] {
+            let gap = at.distance(on_border(place));
+            if gap > limit {
+                return Err(format!("the coastline ends inside the area, {gap:.0} m from its border"));
+            }
+            if gap > ON_BORDER {
+                piece.insert(index.min(piece.len()), on_border(place));
+                bridged = gap.max(bridged);
+            }
         }
         open.push((enter, leave, piece));
     }
@@ -119,7 +140,7 @@ fn close_along_border(pieces: Vec<Vec<DVec2>>, area: &[DVec2]) -> Result<Vec<Rin
         }
         rings.push(ring);
     }
-    Ok(rings)
+    Ok((rings, bridged))
 }
 
 /// The area's corners met when going clockwise from one border place to another.
@@ -151,9 +172,9 @@ mod tests {
     #[test]
     fn water_lies_on_the_right_of_the_coast() {
         // Going east at y = 4: the right hand is south.
-        let south = sea(&[points(&[(-5.0, 4.0), (5.0, 4.0)]), points(&[(5.0, 4.0), (15.0, 4.0)])], &area()).unwrap();
+        let south = sea(&[points(&[(-5.0, 4.0), (5.0, 4.0)]), points(&[(5.0, 4.0), (15.0, 4.0)])], &area()).unwrap().polygons;
         assert!((total(&south) - 40.0).abs() < 1e-9 && south[0].contains(DVec2::new(5.0, 1.0)));
-        let north = sea(&[points(&[(15.0, 4.0), (-5.0, 4.0)])], &area()).unwrap();
+        let north = sea(&[points(&[(15.0, 4.0), (-5.0, 4.0)])], &area()).unwrap().polygons;
         assert!((total(&north) - 60.0).abs() < 1e-9 && north[0].contains(DVec2::new(5.0, 9.0)));
     }
 
@@ -161,9 +182,9 @@ mod tests {
     fn a_cape_and_a_bay_split_the_sea() {
         let capes = [points(&[(2.0, -1.0), (2.0, 11.0)]), points(&[(8.0, 11.0), (8.0, -1.0)])];
         // North-going at x = 2: water east; south-going at x = 8: water west.
-        assert!((total(&sea(&capes, &area()).unwrap()) - 60.0).abs() < 1e-9);
+        assert!((total(&sea(&capes, &area()).unwrap().polygons) - 60.0).abs() < 1e-9);
         let straits = [points(&[(2.0, 11.0), (2.0, -1.0)]), points(&[(8.0, -1.0), (8.0, 11.0)])];
-        let both = sea(&straits, &area()).unwrap();
+        let both = sea(&straits, &area()).unwrap().polygons;
         assert_eq!(both.len(), 2);
         assert!((total(&both) - 40.0).abs() < 1e-9);
     }
@@ -171,7 +192,7 @@ mod tests {
     #[test]
     fn an_island_alone_makes_the_rest_sea() {
         let island = points(&[(4.0, 4.0), (6.0, 4.0), (6.0, 6.0), (4.0, 6.0), (4.0, 4.0)]);
-        let all = sea(&[island], &area()).unwrap();
+        let all = sea(&[island], &area()).unwrap().polygons;
         assert!((total(&all) - 96.0).abs() < 1e-9, "{all:?}");
     }
 
@@ -181,7 +202,7 @@ mod tests {
         for start in 0..3 {
             let mut island: Vec<(f64, f64)> = (0..=3).map(|i| ring[(start + i) % 3]).collect();
             island[3] = island[0];
-            let water = sea(&[points(&island)], &area()).unwrap();
+            let water = sea(&[points(&island)], &area()).unwrap().polygons;
             // The triangle above y = 0: widths 2.4 and 4 over 3 m.
             assert!((total(&water) - (100.0 - 9.6)).abs() < 1e-9, "{start}: {}", total(&water));
         }
@@ -189,7 +210,12 @@ mod tests {
 
     #[test]
     fn a_coast_that_ends_inside_is_refused() {
-        let big: Ring = area().iter().map(|p| *p * 100.0).collect();
-        assert!(sea(&[points(&[(-5.0, 400.0), (500.0, 400.0)])], &big).unwrap_err().contains("ends inside"));
+        assert!(sea(&[points(&[(-5.0, 4.0), (5.0, 4.5)])], &area()).unwrap_err().contains("ends inside"));
+    }
+
+    #[test]
+    fn a_coast_that_ends_near_the_border_is_continued() {
+        let made = sea(&[points(&[(-5.0, 4.0), (8.0, 4.0)])], &area()).unwrap();
+        assert!((made.bridged - 2.0).abs() < 1e-9 && (total(&made.polygons) - 40.0).abs() < 1e-9, "{made:?}");
     }
 }

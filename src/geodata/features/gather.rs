@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::classify::{Verdict, classify};
 use super::duplicate::canonical;
-use super::multipolygon::{Group, assemble};
+use super::multipolygon::{Group, assemble, from_ring};
 use super::scene::Scene;
 use crate::geodata::feature::{FeatureClass, FeatureId, ObjectKind, Tags};
 use crate::geodata::osm::{Position, Relation, Shape, ShapeGeometry, TagsView, Way};
@@ -202,6 +202,12 @@ impl<'a> Gatherer<'a> {
         if distinct < 3 {
             let missing = notes.first().filter(|note| note.contains("missing")).cloned();
             return self.skip(object, missing.unwrap_or_else(|| too_few(distinct, total)), points);
+        }
+        if distinct < points.len() {
+            let made = from_ring(points);
+            notes.extend(made.notes);
+            let body = Body::Area { groups: made.groups, overlapping: made.overlapping };
+            return self.add(object, class, body, notes);
         }
         let groups = vec![Group { outer: points, holes: Vec::new() }];
         self.add(object, class, Body::Area { groups, overlapping: false }, notes);

@@ -18,6 +18,8 @@ pub mod ribbon;
 mod rings;
 mod scene;
 #[cfg(test)]
+mod multipolygon_tests;
+#[cfg(test)]
 mod tests;
 
 use std::sync::Arc;
@@ -110,8 +112,8 @@ fn sea(scene: &Scene, coast: &[(i64, Vec<Position>)], records: &mut Vec<(Feature
     });
     let Some(border) = border else { return Vec::new() };
     let lines: Vec<Vec<DVec2>> = coast.iter().map(|(_, line)| scene.local_line(line)).collect();
-    let polygons = match coastline::sea(&lines, &border) {
-        Ok(polygons) => polygons,
+    let water = match coastline::sea(&lines, &border) {
+        Ok(water) => water,
         Err(why) => {
             records.push((id, Outcome::Skipped(why)));
             return Vec::new();
@@ -119,7 +121,11 @@ fn sea(scene: &Scene, coast: &[(i64, Vec<Position>)], records: &mut Vec<(Feature
     };
     let tags = [("natural", "coastline"), ("water", "sea")].map(|(k, v)| (Arc::from(k), Arc::from(v)));
     let mut features = Vec::new();
-    for polygon in polygons {
+    let outcome = match water.bridged {
+        0.0 => Outcome::Ok,
+        gap => Outcome::Repaired(format!("the coastline was continued straight over {gap:.0} m to the border")),
+    };
+    for polygon in water.polygons {
         let rings: Vec<Ring> = polygon.rings().cloned().collect();
         let repaired = repair(&rings, &Options::default());
         if let Verdict::Rejected(why) = repaired.verdict {
@@ -127,7 +133,7 @@ fn sea(scene: &Scene, coast: &[(i64, Vec<Position>)], records: &mut Vec<(Feature
         }
         for polygon in repaired.polygons {
             let id = FeatureId { part: features.len() as u32, ..id };
-            records.push((id, Outcome::Ok));
+            records.push((id, outcome.clone()));
             let outline = Outline::Area(polygon);
             features.push(Feature { id, class: FeatureClass::Water, outline, tags: tags.iter().cloned().collect() });
         }

@@ -56,6 +56,17 @@ pub fn assemble(data: &OsmData, relation: &Relation) -> Result<Assembled, String
     if nested.groups.is_empty() { Err(incomplete()) } else { Ok(Assembled { notes, ..nested }) }
 }
 
+/// The polygons of one closed way that visits a point more than once: loops inside loops are holes.
+pub fn from_ring(points: Vec<Position>) -> Assembled {
+    let mut closed = points;
+    closed.extend(closed.first().copied());
+    let mut notes = Vec::new();
+    let mut rings = join(vec![Strand { points: closed, role: Role::None }]).rings;
+    drop_repeats(&mut rings, &mut notes);
+    let nested = nest(rings, false, &mut notes);
+    Assembled { notes, ..nested }
+}
+
 fn plural(count: usize) -> &'static str {
     if count == 1 { "" } else { "s" }
 }
