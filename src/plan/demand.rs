@@ -52,7 +52,10 @@ pub enum Ambient {
     /// The same radiance from every direction, linear RGB.
     Constant([f64; 3]),
     /// A sky dome over a ground: irradiance goes with the normal from `ground` (down) to `zenith` (up), linear RGB.
-    Sky { zenith: [f64; 3], ground: [f64; 3] },
+    Sky {
+        zenith: [f64; 3],
+        ground: [f64; 3],
+    },
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]

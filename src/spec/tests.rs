@@ -180,7 +180,7 @@ fn no_text_makes_checking_panic() {
     let access = Access::new(folder.path()).expect("the folder exists");
     let path = folder.path().join("r.render");
     let source: Vec<char> = SKETCH.chars().collect();
-    let rounds = std::env::var("MANSARD_FUZZ_ROUNDS").ok().and_then(|n| n.parse().ok()).unwrap_or(150u64);
+    let rounds = std::env::var("MANSARD_FUZZ_ROUNDS").ok().and_then(|n| n.parse().ok()).unwrap_or(100u64);
     for round in 0..rounds {
         let seed = crate::interpreter::seed::Seed::root(round);
         let mut text = source.clone();
