@@ -1,5 +1,7 @@
 //! Polygon meshes in space: faces keep their holes until triangles are needed.
 
+use std::collections::BTreeMap;
+
 use glam::{DVec2, DVec3};
 
 use super::plane::unit;
@@ -78,9 +80,44 @@ impl Mesh {
         self.area_vector(face).length() / 2.0
     }
 
+    /// The mesh with vertices of equal position made one (no tolerance), in order of first occurrence.
+    pub fn welded(&self) -> Mesh {
+        let key = |p: DVec3| (p + DVec3::ZERO).to_array().map(f64::to_bits); // -0 and 0 are one position
+        let mut places: BTreeMap<[u64; 3], u32> = BTreeMap::new();
+        let mut out = Mesh { positions: Vec::new(), faces: self.faces.clone() };
+        let place_of: Vec<u32> = (self.positions.iter())
+            .map(|&p| {
+                *places.entry(key(p)).or_insert_with(|| {
+                    out.positions.push(p);
+                    out.positions.len() as u32 - 1
+                })
+            })
+            .collect();
+        for face in &mut out.faces {
+            let loops = std::iter::once(&mut face.outer).chain(&mut face.holes);
+            loops.flatten().for_each(|c| *c = place_of[*c as usize]);
+        }
+        out
+    }
+
     /// Least and greatest coordinates; `None` for an empty mesh.
     pub fn bounds(&self) -> Option<(DVec3, DVec3)> {
         let &first = self.positions.first()?;
         Some(self.positions.iter().fold((first, first), |(lo, hi), &p| (lo.min(p), hi.max(p))))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn equal_positions_become_one_vertex() {
+        let p = |x: f64, z: f64| DVec3::new(x, 0.0, z);
+        let positions = vec![p(0.0, 0.0), p(1.0, 0.0), p(1.0, -1.0), p(-0.0, 0.0), p(1.0, -1.0), p(0.0, -1.0)];
+        let mesh = Mesh { positions, faces: vec![Face::new(vec![0, 1, 2]), Face::new(vec![3, 4, 5])] };
+        let welded = mesh.welded();
+        assert_eq!(welded.positions.len(), 4);
+        assert_eq!((&welded.faces[0].outer[..], &welded.faces[1].outer[..]), (&[0, 1, 2][..], &[0, 2, 3][..]));
     }
 }
