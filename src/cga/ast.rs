@@ -76,7 +76,11 @@ pub enum Override {
     /// A bare name: not overridden by the importing file's attribute of the same name.
     Keep(Text),
     Value(Text, Expr),
-    Rule { name: Text, parameters: Vec<Text>, successor: Successor },
+    Rule {
+        name: Text,
+        parameters: Vec<Text>,
+        successor: Successor,
+    },
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -132,15 +136,35 @@ pub enum ExprKind {
     String(Arc<str>),
     Array(Vec<Vec<Expr>>),
     /// Only as an element of an array or index.
-    Range { from: Box<Expr>, step: Option<Box<Expr>>, to: Box<Expr> },
+    Range {
+        from: Box<Expr>,
+        step: Option<Box<Expr>>,
+        to: Box<Expr>,
+    },
     /// A name with or without arguments.
-    Call { name: Text, args: Option<Vec<Argument>> },
-    Comp { args: Vec<Argument>, selectors: Vec<Selector<Expr>> },
+    Call {
+        name: Text,
+        args: Option<Vec<Argument>>,
+    },
+    Comp {
+        args: Vec<Argument>,
+        selectors: Vec<Selector<Expr>>,
+    },
     Unary(UnaryOperator, Box<Expr>),
     Binary(BinaryOperator, Box<Expr>, Box<Expr>),
-    Index { array: Box<Expr>, row: Box<Expr>, column: Option<Box<Expr>> },
-    Case { branches: Vec<(Expr, Expr)>, otherwise: Box<Expr> },
-    Stochastic { branches: Vec<(Expr, Expr)>, otherwise: Box<Expr> },
+    Index {
+        array: Box<Expr>,
+        row: Box<Expr>,
+        column: Option<Box<Expr>>,
+    },
+    Case {
+        branches: Vec<(Expr, Expr)>,
+        otherwise: Box<Expr>,
+    },
+    Stochastic {
+        branches: Vec<(Expr, Expr)>,
+        otherwise: Box<Expr>,
+    },
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -177,18 +201,54 @@ pub enum ItemKind {
     Group(Successor),
     Nil,
     /// An operation without a block, a rule, or a leaf. `terminal` where a dot follows the name.
-    Plain { name: Text, args: Option<Vec<Argument>>, terminal: bool },
+    Plain {
+        name: Text,
+        args: Option<Vec<Argument>>,
+        terminal: bool,
+    },
     /// `split` and `splitArea`.
-    Split { name: Text, args: Vec<Argument>, block: Block },
+    Split {
+        name: Text,
+        args: Vec<Argument>,
+        block: Block,
+    },
     /// `comp`, `modify`, `setback` and the like.
-    Selectors { name: Text, args: Vec<Argument>, selectors: Vec<Selector<Successor>> },
-    Scatter { name: Text, args: Vec<Argument>, body: Box<Successor> },
-    Perimeter { name: Text, args: Vec<Argument>, block: SectionBlock, remainder: Vec<Selector<Successor>> },
-    Inline { name: Text, mode: Option<Text>, body: Box<Successor> },
+    Selectors {
+        name: Text,
+        args: Vec<Argument>,
+        selectors: Vec<Selector<Successor>>,
+    },
+    Scatter {
+        name: Text,
+        args: Vec<Argument>,
+        body: Box<Successor>,
+    },
+    Perimeter {
+        name: Text,
+        args: Vec<Argument>,
+        block: SectionBlock,
+        remainder: Vec<Selector<Successor>>,
+    },
+    Inline {
+        name: Text,
+        mode: Option<Text>,
+        body: Box<Successor>,
+    },
     /// `right` is absent in the old form `subtract Rule`; `swap` as in `subtract(swap) Rule`.
-    Boolean { operator: BooleanOperator, name: Text, mode: Option<Text>, left: Box<Successor>, right: Option<Box<Successor>> },
+    Boolean {
+        operator: BooleanOperator,
+        name: Text,
+        mode: Option<Text>,
+        left: Box<Successor>,
+        right: Option<Box<Successor>>,
+    },
     /// `prefix( overrides ).Rule(args)`.
-    Dynamic { prefix: Text, overrides: Vec<Override>, name: Text, args: Vec<Argument> },
+    Dynamic {
+        prefix: Text,
+        overrides: Vec<Override>,
+        name: Text,
+        args: Vec<Argument>,
+    },
 }
 
 /// A split block, perhaps repeated.
@@ -201,7 +261,11 @@ pub struct Block {
 #[derive(Clone, Debug, PartialEq)]
 pub enum Part {
     Group(Block),
-    Piece { prefix: Prefix, size: Expr, body: Successor },
+    Piece {
+        prefix: Prefix,
+        size: Expr,
+        body: Successor,
+    },
     /// Without a size, as before version 2015: `~1`.
     Unsized(Successor, Span),
 }

@@ -207,8 +207,15 @@ impl Function {
         use Function as F;
         matches!(
             self,
-            F::Rand | F::P | F::ListRandom | F::FileRandom | F::AssetApproxRatio | F::AssetApproxSize
-                | F::ImageApproxRatio | F::ImageBestRatio | F::AssetFitSize
+            F::Rand
+                | F::P
+                | F::ListRandom
+                | F::FileRandom
+                | F::AssetApproxRatio
+                | F::AssetApproxSize
+                | F::ImageApproxRatio
+                | F::ImageBestRatio
+                | F::AssetFitSize
         )
     }
 }

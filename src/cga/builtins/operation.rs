@@ -110,8 +110,10 @@ operations! {
     Setback "setback" Evaluated ["F F?", "F[] F?"]
     SetbackPerEdge "setbackPerEdge" NotYet ["F F?"]
     SetbackToArea "setbackToArea" NotYet ["F F?", "F F[] F?", "F F[] F[] F?"]
+    // With five arguments the last one is the uw factor (an old overload).
     SetupProjection "setupProjection" Evaluated [
-        "F {scope.xy scope.xz scope.yx scope.yz scope.zx scope.zy world.xy world.xz world.yx world.yz world.zx world.zy} F~ F~ F'? F'? F?"
+        "F {scope.xy scope.xz scope.yx scope.yz scope.zx scope.zy world.xy world.xz world.yx world.yz world.zx world.zy} F~ F~ F?",
+        "F {scope.xy scope.xz scope.yx scope.yz scope.zx scope.zy world.xy world.xz world.yx world.yz world.zx world.zy} F~ F~ F' F' F?"
     ]
     ShapeL "shapeL" Evaluated ["F F"]
     ShapeO "shapeO" Evaluated ["F F F F"]
@@ -149,8 +151,18 @@ impl Operation {
         use Operation as O;
         matches!(
             self,
-            O::Split | O::SplitArea | O::SplitAndSetbackPerimeter | O::Comp | O::Setback | O::SetbackPerEdge
-                | O::SetbackToArea | O::ShapeL | O::ShapeU | O::ShapeO | O::InnerRectangle | O::Scatter
+            O::Split
+                | O::SplitArea
+                | O::SplitAndSetbackPerimeter
+                | O::Comp
+                | O::Setback
+                | O::SetbackPerEdge
+                | O::SetbackToArea
+                | O::ShapeL
+                | O::ShapeU
+                | O::ShapeO
+                | O::InnerRectangle
+                | O::Scatter
         )
     }
 }

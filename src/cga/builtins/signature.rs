@@ -29,11 +29,37 @@ const EVERY: [Type; 6] = [Type::Float, Type::Bool, Type::String, Type::Floats, T
 
 /// The orientation selectors that `geometry.area` and `geometry.isOriented` take (reference 3.5, 3.7).
 const ORIENTATION: &[Word] = &[
-    Word::Front, Word::Back, Word::Right, Word::Left, Word::Top, Word::Bottom, Word::Side,
-    Word::ObjectFront, Word::ObjectBack, Word::ObjectRight, Word::ObjectLeft, Word::ObjectTop, Word::ObjectBottom,
-    Word::ObjectSide, Word::WorldSouth, Word::WorldNorth, Word::WorldEast, Word::WorldWest, Word::WorldUp,
-    Word::WorldDown, Word::WorldSide, Word::Vertical, Word::Aslant, Word::Nutant, Word::Horizontal, Word::All,
-    Word::StreetFront, Word::StreetBack, Word::StreetLeft, Word::StreetRight, Word::StreetSide,
+    Word::Front,
+    Word::Back,
+    Word::Right,
+    Word::Left,
+    Word::Top,
+    Word::Bottom,
+    Word::Side,
+    Word::ObjectFront,
+    Word::ObjectBack,
+    Word::ObjectRight,
+    Word::ObjectLeft,
+    Word::ObjectTop,
+    Word::ObjectBottom,
+    Word::ObjectSide,
+    Word::WorldSouth,
+    Word::WorldNorth,
+    Word::WorldEast,
+    Word::WorldWest,
+    Word::WorldUp,
+    Word::WorldDown,
+    Word::WorldSide,
+    Word::Vertical,
+    Word::Aslant,
+    Word::Nutant,
+    Word::Horizontal,
+    Word::All,
+    Word::StreetFront,
+    Word::StreetBack,
+    Word::StreetLeft,
+    Word::StreetRight,
+    Word::StreetSide,
 ];
 
 impl Signature {
@@ -129,7 +155,10 @@ mod tests {
         assert_eq!(signature.arity(), (3, 4));
         assert_eq!(signature.result, Some(Type::Bool));
         assert_eq!(signature.parameters[0].words, [Word::YUp, Word::ZUp]);
-        assert_eq!((&signature.parameters[1].values[..], &signature.parameters[1].words[..]), (&[Type::Float][..], &[Word::Any][..]));
+        assert_eq!(
+            (&signature.parameters[1].values[..], &signature.parameters[1].words[..]),
+            (&[Type::Float][..], &[Word::Any][..])
+        );
         assert!(signature.parameters[2].floating && signature.parameters[2].relative);
         assert_eq!(signature.parameters[3].values, [Type::Strings]);
     }

@@ -10,9 +10,29 @@ use crate::diagnostics::{Diagnostic, Diagnostics, suggest};
 
 /// Annotations of reference 1.14.
 const KNOWN: &[&str] = &[
-    "StartRule", "Hidden", "Group", "Order", "Range", "Enum", "Color", "File", "Directory", "MaterialFile", "Angle",
-    "Distance", "Percent", "Description", "DisplayName", "RuleFileDescription", "Handle", "InMesh", "InPolygon",
-    "InLine", "InPoint", "InPointCloud", "Out",
+    "StartRule",
+    "Hidden",
+    "Group",
+    "Order",
+    "Range",
+    "Enum",
+    "Color",
+    "File",
+    "Directory",
+    "MaterialFile",
+    "Angle",
+    "Distance",
+    "Percent",
+    "Description",
+    "DisplayName",
+    "RuleFileDescription",
+    "Handle",
+    "InMesh",
+    "InPolygon",
+    "InLine",
+    "InPoint",
+    "InPointCloud",
+    "Out",
 ];
 
 /// The group that stays open from one declaration to the next.

@@ -149,7 +149,8 @@ impl Body<'_, '_> {
 /// The first argument an overload cannot take.
 fn mismatch(signature: &Signature, given: &[Given<'_>]) -> Option<Misfit> {
     let at = given.iter().zip(&signature.parameters).position(|(arg, kind)| {
-        let as_word = arg.word.is_some_and(|w| kind.words.contains(&w)) || arg.computed.is_some() && !kind.words.is_empty();
+        let as_word =
+            arg.word.is_some_and(|w| kind.words.contains(&w)) || arg.computed.is_some() && !kind.words.is_empty();
         let value = arg.value.as_ref().filter(|_| !kind.values.is_empty());
         let as_value = value.is_some_and(|v| v.value.is_none_or(|found| kind.values.contains(&found)));
         !as_word && !as_value

@@ -145,7 +145,8 @@ impl Body<'_, '_> {
 
     pub fn deprecated(&mut self, name: &Text, new: &str) {
         let message = format!("`{}` is an old name", name.text);
-        self.diagnostics.push(Diagnostic::warning(codes::DEPRECATED, name.span, message).help(format!("write `{new}`")));
+        self.diagnostics
+            .push(Diagnostic::warning(codes::DEPRECATED, name.span, message).help(format!("write `{new}`")));
     }
 
     fn unknown_value(&mut self, name: &Text, args: &[Argument]) {
@@ -164,7 +165,9 @@ impl Body<'_, '_> {
         let mut diagnostic = Diagnostic::error(code, name.span, message);
         diagnostic.help = match near {
             Some(near) => Some(format!("did you mean `{near}`?")),
-            None if Word::from_text(&name.text).is_some() => Some("it is a keyword, but not one of this place".to_owned()),
+            None if Word::from_text(&name.text).is_some() => {
+                Some("it is a keyword, but not one of this place".to_owned())
+            }
             None => None,
         };
         self.diagnostics.push(diagnostic);
@@ -174,7 +177,9 @@ impl Body<'_, '_> {
     fn selector_word(&mut self, word: Word, span: Span) -> Expr {
         use Word as W;
         let form = match word {
-            W::StreetFront | W::StreetBack | W::StreetLeft | W::StreetRight | W::StreetSide => Some(Form::StreetSelector),
+            W::StreetFront | W::StreetBack | W::StreetLeft | W::StreetRight | W::StreetSide => {
+                Some(Form::StreetSelector)
+            }
             W::LegacyStreetSide | W::LegacyNoStreetSide => Some(Form::StreetSelector),
             W::UvLeft | W::UvRight | W::UvBottom | W::UvTop | W::UvUMin | W::UvUMax | W::UvVMin | W::UvVMax => {
                 Some(Form::UvSelector)
@@ -198,12 +203,54 @@ pub fn fits(parameters: &[Option<Type>], values: &[Expr]) -> bool {
 static SELECTORS: &[Word] = &{
     use Word as W;
     [
-        W::Front, W::Back, W::Right, W::Left, W::Top, W::Bottom, W::Side, W::ObjectFront, W::ObjectBack,
-        W::ObjectRight, W::ObjectLeft, W::ObjectTop, W::ObjectBottom, W::ObjectSide, W::WorldSouth, W::WorldNorth,
-        W::WorldEast, W::WorldWest, W::WorldUp, W::WorldDown, W::WorldSide, W::Vertical, W::Aslant, W::Nutant,
-        W::Horizontal, W::All, W::Border, W::Inside, W::Eave, W::Hip, W::Valley, W::Ridge, W::StreetFront,
-        W::StreetBack, W::StreetLeft, W::StreetRight, W::StreetSide, W::LegacyStreetSide, W::LegacyNoStreetSide,
-        W::UvLeft, W::UvRight, W::UvBottom, W::UvTop, W::UvUMin, W::UvUMax, W::UvVMin, W::UvVMax, W::Remainder,
+        W::Front,
+        W::Back,
+        W::Right,
+        W::Left,
+        W::Top,
+        W::Bottom,
+        W::Side,
+        W::ObjectFront,
+        W::ObjectBack,
+        W::ObjectRight,
+        W::ObjectLeft,
+        W::ObjectTop,
+        W::ObjectBottom,
+        W::ObjectSide,
+        W::WorldSouth,
+        W::WorldNorth,
+        W::WorldEast,
+        W::WorldWest,
+        W::WorldUp,
+        W::WorldDown,
+        W::WorldSide,
+        W::Vertical,
+        W::Aslant,
+        W::Nutant,
+        W::Horizontal,
+        W::All,
+        W::Border,
+        W::Inside,
+        W::Eave,
+        W::Hip,
+        W::Valley,
+        W::Ridge,
+        W::StreetFront,
+        W::StreetBack,
+        W::StreetLeft,
+        W::StreetRight,
+        W::StreetSide,
+        W::LegacyStreetSide,
+        W::LegacyNoStreetSide,
+        W::UvLeft,
+        W::UvRight,
+        W::UvBottom,
+        W::UvTop,
+        W::UvUMin,
+        W::UvUMax,
+        W::UvVMin,
+        W::UvVMax,
+        W::Remainder,
         W::Shape,
     ]
 };
@@ -223,7 +270,9 @@ pub fn bare_name(expr: &ast::Expr) -> Option<&Text> {
 /// The argument of `sel(text)`.
 pub fn computed_word(expr: &ast::Expr) -> Option<&ast::Expr> {
     match &expr.kind {
-        ast::ExprKind::Call { name, args: Some(args) } if &*name.text == "sel" && args.len() == 1 => Some(&args[0].value),
+        ast::ExprKind::Call { name, args: Some(args) } if &*name.text == "sel" && args.len() == 1 => {
+            Some(&args[0].value)
+        }
         _ => None,
     }
 }

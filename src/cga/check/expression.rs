@@ -6,9 +6,7 @@ use super::lower::Body;
 use super::types::{array_of, element_of, is_array, type_name};
 use crate::cga::ast;
 use crate::cga::codes;
-use crate::cga::program::{
-    BinaryOperator as B, DrawSite, Expr, ExprKind, Type, UnaryOperator as U,
-};
+use crate::cga::program::{BinaryOperator as B, DrawSite, Expr, ExprKind, Type, UnaryOperator as U};
 use crate::diagnostics::Diagnostic;
 use crate::source::Span;
 
@@ -189,7 +187,11 @@ impl Body<'_, '_> {
                 self.same(left, right, span);
                 for side in [left, right] {
                     if matches!(side.value, Some(Type::Bool | Type::Bools)) {
-                        self.error(codes::TYPE_MISMATCH, side.span, format!("`{}` does not order bools", operator.text()));
+                        self.error(
+                            codes::TYPE_MISMATCH,
+                            side.span,
+                            format!("`{}` does not order bools", operator.text()),
+                        );
                     }
                 }
                 Some(Type::Bool)
@@ -287,13 +289,15 @@ impl Body<'_, '_> {
                 Some(Type::Float) => {}
                 Some(Type::Floats | Type::Bools) => scalar = scalar.map(|_| false),
                 Some(found) => {
-                    let message = format!("an index is a number or an array of numbers or bools, not {}", type_name(found));
+                    let message =
+                        format!("an index is a number or an array of numbers or bools, not {}", type_name(found));
                     self.error(codes::TYPE_MISMATCH, index.span, message);
                 }
                 None => scalar = scalar.filter(|s| !s),
             }
         }
-        let value = array.value.zip(scalar).map(|(kind, scalar)| if scalar { element_of(kind) } else { array_of(kind) });
+        let value =
+            array.value.zip(scalar).map(|(kind, scalar)| if scalar { element_of(kind) } else { array_of(kind) });
         let (array, row, column) = (Box::new(array), Box::new(row), column.map(Box::new));
         Expr { kind: ExprKind::Index { array, row, column }, value, span }
     }

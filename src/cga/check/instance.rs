@@ -57,7 +57,10 @@ pub struct FunctionEntry<'a> {
 pub enum Default<'a> {
     Written(&'a Definition),
     /// `import x : "..." (a = expr)`, resolved in the importing instance.
-    Overridden { scope: usize, value: &'a ast::Expr },
+    Overridden {
+        scope: usize,
+        value: &'a ast::Expr,
+    },
     /// The importing file's attribute of the same name.
     Propagated(AttributeId),
 }
@@ -130,10 +133,14 @@ impl<'a> Tables<'a> {
     /// The styles whose definitions hold, from the default style (0) to the chosen one; styles count from 1.
     fn style_chain(&mut self, file: usize, style: Option<&str>) -> Vec<usize> {
         let ast = &self.files[file].ast;
-        let styles: Vec<&ast::Style> = ast.declarations.iter().filter_map(|d| match &d.kind {
-            DeclarationKind::Style(style) => Some(style),
-            _ => None,
-        }).collect();
+        let styles: Vec<&ast::Style> = ast
+            .declarations
+            .iter()
+            .filter_map(|d| match &d.kind {
+                DeclarationKind::Style(style) => Some(style),
+                _ => None,
+            })
+            .collect();
         let names = || styles.iter().map(|s| &*s.name.text);
         let find = |name: &str| styles.iter().position(|s| &*s.name.text == name);
         let unknown = |span: Span, name: &str| {
@@ -228,11 +235,21 @@ impl<'a> Tables<'a> {
         } else {
             let is_const = definition.kind == DefinitionKind::Const;
             let default = Default::Written(definition);
-            self.attributes.push(AttributeEntry { name, scope: instance, is_const, definition, default, annotations, span });
+            self.attributes.push(AttributeEntry {
+                name,
+                scope: instance,
+                is_const,
+                definition,
+                default,
+                annotations,
+                span,
+            });
             Value::Attribute(AttributeId(self.attributes.len() as u32 - 1))
         };
         let known = self.instances[instance].values.get(&text.text).cloned().unwrap_or_default();
-        let clash = known.iter().any(|&other| self.value_arity(other) == arity && (arity == 0 || matches!(other, Value::Attribute(_))));
+        let clash = known
+            .iter()
+            .any(|&other| self.value_arity(other) == arity && (arity == 0 || matches!(other, Value::Attribute(_))));
         if clash {
             self.duplicate(span, &text.text);
         }
@@ -279,7 +296,8 @@ impl<'a> Tables<'a> {
 
     pub fn duplicate(&mut self, span: Span, name: &str) {
         let message = format!("`{name}` is defined twice with the same parameters");
-        self.diagnostics.push(Diagnostic::error(codes::DUPLICATE_DEFINITION, span, message).label("the second definition"));
+        self.diagnostics
+            .push(Diagnostic::error(codes::DUPLICATE_DEFINITION, span, message).label("the second definition"));
     }
 
     fn imports(&mut self, parent: usize, file: usize, hidden: bool) {

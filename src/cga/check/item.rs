@@ -9,8 +9,8 @@ use crate::cga::ast::{self, Argument, Block, ItemKind, Part, SectionBlock, Secti
 use crate::cga::builtins::{Attr, Form, Operation, Word};
 use crate::cga::codes;
 use crate::cga::program::{
-    Arg, Axis, BooleanOperator, Expr, ExprKind, InlineMode, Item, PerimeterItem, Prefix, RuleId, SectionPattern, Sequence,
-    SetTarget, SplitBlock, SplitItem, SplitKind, Successor, Type,
+    Arg, Axis, BooleanOperator, Expr, ExprKind, InlineMode, Item, PerimeterItem, Prefix, RuleId, SectionPattern,
+    Sequence, SetTarget, SplitBlock, SplitItem, SplitKind, Successor, Type,
 };
 use crate::diagnostics::{Diagnostic, suggest};
 use crate::source::Span;
@@ -152,7 +152,11 @@ impl Body<'_, '_> {
         } else if let Some(name) = bare_name(&target.value) {
             self.set_target(name, &value).unwrap_or(unused)
         } else {
-            self.error(codes::UNKNOWN_ATTRIBUTE, target.span, "the first argument of `set` is the name of an attribute");
+            self.error(
+                codes::UNKNOWN_ATTRIBUTE,
+                target.span,
+                "the first argument of `set` is the name of an attribute",
+            );
             unused
         };
         Item::Set { target, value, span }
@@ -174,7 +178,11 @@ impl Body<'_, '_> {
             return Some(SetTarget::Attribute(id));
         }
         let Some(row) = Attr::from_name(&name.text) else {
-            let diagnostic = Diagnostic::error(codes::UNKNOWN_ATTRIBUTE, name.span, format!("there is no attribute `{}`", name.text));
+            let diagnostic = Diagnostic::error(
+                codes::UNKNOWN_ATTRIBUTE,
+                name.span,
+                format!("there is no attribute `{}`", name.text),
+            );
             let own = self.tables.instances[self.scope].values.keys().map(|k| &**k);
             let names = own.chain(Attr::table().filter(|row| row.writable).map(|row| row.name));
             let help = suggest(&name.text, names).map(|near| format!("did you mean `{near}`?"));
@@ -253,7 +261,8 @@ impl Body<'_, '_> {
                 SplitItem::Piece { prefix: *prefix, size, body: b.successor(body, true) }
             }
             Part::Unsized(body, span) => {
-                let warning = Diagnostic::warning(codes::MISSING_SIZE, *span, "this part has no size; it is read as `~1`");
+                let warning =
+                    Diagnostic::warning(codes::MISSING_SIZE, *span, "this part has no size; it is read as `~1`");
                 b.diagnostics.push(warning.help("write `~1 :` in front of it"));
                 let size = super::expression::typed(ExprKind::Number(1.0), Type::Float, *span);
                 SplitItem::Piece { prefix: Prefix::Floating, size, body: b.successor(body, true) }

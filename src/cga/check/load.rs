@@ -84,10 +84,14 @@ impl<'s> Loader<'s> {
         let (ast, diagnostics) = parse(file);
         self.diagnostics.extend(diagnostics);
         let index = self.files.len();
-        let imports: Vec<Import> = ast.declarations.iter().filter_map(|d| match &d.kind {
-            DeclarationKind::Import(import) => Some(import.clone()),
-            _ => None,
-        }).collect();
+        let imports: Vec<Import> = ast
+            .declarations
+            .iter()
+            .filter_map(|d| match &d.kind {
+                DeclarationKind::Import(import) => Some(import.clone()),
+                _ => None,
+            })
+            .collect();
         self.files.push(LoadedFile { ast, text: file.text.clone(), folder: folder.clone(), imports: Vec::new() });
         self.paths.push(path);
         self.open.push(index);

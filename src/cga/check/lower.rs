@@ -66,9 +66,8 @@ fn infer(program: &Program) -> Types {
 
 /// Definitions with as many parameters as another and no different types.
 fn clashes(tables: &mut Tables<'_>, types: &Types) {
-    let distinct = |a: &[Option<Type>], b: &[Option<Type>]| {
-        a.iter().zip(b).any(|(a, b)| a.zip(*b).is_some_and(|(a, b)| a != b))
-    };
+    let distinct =
+        |a: &[Option<Type>], b: &[Option<Type>]| a.iter().zip(b).any(|(a, b)| a.zip(*b).is_some_and(|(a, b)| a != b));
     let mut found: Vec<(Span, Arc<str>)> = Vec::new();
     for instance in &tables.instances {
         for (name, rules) in &instance.rules {
@@ -224,7 +223,11 @@ impl<'c, 'a> Body<'c, 'a> {
 
     fn slot(&mut self, name: &Text, kind: Option<Type>) {
         if self.slots.iter().any(|(other, _)| *other == name.text) {
-            self.error(codes::DUPLICATE_PARAMETER, name.span, format!("two parameters or locals are named `{}`", name.text));
+            self.error(
+                codes::DUPLICATE_PARAMETER,
+                name.span,
+                format!("two parameters or locals are named `{}`", name.text),
+            );
         }
         self.slots.push((name.text.clone(), kind));
     }
@@ -242,7 +245,8 @@ impl<'c, 'a> Body<'c, 'a> {
             ("streetWidth", 1) => self.form(crate::cga::builtins::Form::StreetWidth, span),
             (_, 0) => {}
             (name, _) => {
-                let message = format!("`{name}` cannot have parameters; leave out `attr` or `const` to make it a function");
+                let message =
+                    format!("`{name}` cannot have parameters; leave out `attr` or `const` to make it a function");
                 self.error(codes::MISPLACED_DECLARATION, span, message);
             }
         }

@@ -72,14 +72,16 @@ impl<'a> Tables<'a> {
         parameters: &'a [Text],
         successor: &'a ast::Successor,
     ) {
-        let found = self.rules_named(child, &name.text).iter().copied().find(|id| self.rules[id.0 as usize].is_extension);
+        let found =
+            self.rules_named(child, &name.text).iter().copied().find(|id| self.rules[id.0 as usize].is_extension);
         let Some(id) = found else {
             let message = format!("the imported file has no extension rule `{}`", name.text);
             return self.bad_override(name, message);
         };
         let old = &self.rules[id.0 as usize];
         if old.parameters.len() != parameters.len() {
-            let message = format!("`{}` takes {} parameters, not {}", name.text, old.parameters.len(), parameters.len());
+            let message =
+                format!("`{}` takes {} parameters, not {}", name.text, old.parameters.len(), parameters.len());
             return self.bad_override(name, message);
         }
         let entry = RuleEntry {
@@ -97,7 +99,8 @@ impl<'a> Tables<'a> {
 
     /// Lets attributes of the importing file override imported ones of the same name.
     fn propagate(&mut self, parent: usize, child: usize, import: &Import, settled: &BTreeSet<Arc<str>>) {
-        let names: Vec<Arc<str>> = self.instances[child].values.keys().filter(|k| !settled.contains(*k)).cloned().collect();
+        let names: Vec<Arc<str>> =
+            self.instances[child].values.keys().filter(|k| !settled.contains(*k)).cloned().collect();
         for name in names {
             let attribute = |tables: &Self, instance: usize| {
                 tables.instances[instance].values.get(&name)?.iter().find_map(|v| match v {
@@ -168,9 +171,7 @@ fn mentions(expr: &Expr, name: &str) -> bool {
         ExprKind::Comp { selectors, .. } => selectors.iter().any(|s| inside(&s.test) || inside(&s.body)),
         ExprKind::Unary(_, inner) => inside(inner),
         ExprKind::Binary(_, a, b) => inside(a) || inside(b),
-        ExprKind::Index { array, row, column } => {
-            inside(array) || inside(row) || column.as_deref().is_some_and(inside)
-        }
+        ExprKind::Index { array, row, column } => inside(array) || inside(row) || column.as_deref().is_some_and(inside),
         ExprKind::Case { branches, otherwise } | ExprKind::Stochastic { branches, otherwise } => {
             branches.iter().any(|(a, b)| inside(a) || inside(b)) || inside(otherwise)
         }

@@ -5,19 +5,20 @@ use super::types::{array_of, type_name};
 use crate::cga::ast::{self, Argument};
 use crate::cga::builtins::{Form, Operation, Word};
 use crate::cga::codes;
-use crate::cga::program::{
-    Arg, Component, Expr, ExprKind, ExprSelector, Selector, SelectorOperator, Type,
-};
+use crate::cga::program::{Arg, Component, Expr, ExprKind, ExprSelector, Selector, SelectorOperator, Type};
 use crate::source::Span;
 
 impl Body<'_, '_> {
     pub fn selectors(&mut self, selectors: &[ast::Selector<ast::Successor>]) -> Vec<Selector> {
-        selectors.iter().map(|selector| {
-            let test = self.selector_test(selector);
-            let text = self.written(selector.test.span);
-            let body = self.plain(|b| b.successor(&selector.body, true));
-            Selector { test, operator: selector.operator, text, body }
-        }).collect()
+        selectors
+            .iter()
+            .map(|selector| {
+                let test = self.selector_test(selector);
+                let text = self.written(selector.test.span);
+                let body = self.plain(|b| b.successor(&selector.body, true));
+                Selector { test, operator: selector.operator, text, body }
+            })
+            .collect()
     }
 
     fn selector_test<T>(&mut self, selector: &ast::Selector<T>) -> Expr {

@@ -43,7 +43,11 @@ fn makes_shapes(item: &Item) -> bool {
         Item::Call { .. } | Item::Leaf { .. } | Item::Discard | Item::Split { .. } | Item::Comp { .. } => true,
         Item::Regions { .. } | Item::Scatter { .. } | Item::PerimeterSplit { .. } => true,
         Item::Group(body) => group_makes_shapes(body),
-        Item::Operation { .. } | Item::Set { .. } | Item::Modify { .. } | Item::Inline { .. } | Item::Boolean { .. } => false,
+        Item::Operation { .. }
+        | Item::Set { .. }
+        | Item::Modify { .. }
+        | Item::Inline { .. }
+        | Item::Boolean { .. } => false,
     }
 }
 

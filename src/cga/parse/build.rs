@@ -72,7 +72,9 @@ impl Builder {
     fn refuse_depth(&mut self, span: Span) {
         if !std::mem::replace(&mut self.too_deep, true) {
             let message = format!("nested more than {MAX_DEPTH} levels deep");
-            self.diagnostics.push(Diagnostic::error(codes::TOO_DEEP, span, message).help("move the inner part into a rule or function"));
+            self.diagnostics.push(
+                Diagnostic::error(codes::TOO_DEEP, span, message).help("move the inner part into a rule or function"),
+            );
         }
     }
 

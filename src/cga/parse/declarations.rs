@@ -39,7 +39,11 @@ impl Builder {
         let string = find(pair, Rule::string).expect("version has a string");
         let text = self.string(string);
         if self.ast.version.is_some() || !self.ast.declarations.is_empty() {
-            self.diagnostics.push(Diagnostic::warning(codes::MISPLACED_VERSION, span, "`version` must come first, once"));
+            self.diagnostics.push(Diagnostic::warning(
+                codes::MISPLACED_VERSION,
+                span,
+                "`version` must come first, once",
+            ));
         }
         self.ast.version.get_or_insert(text);
     }

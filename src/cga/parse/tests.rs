@@ -187,15 +187,19 @@ fn a_split_keeps_prefixes_groups_and_the_star() {
 #[test]
 fn a_declaration_ends_where_the_next_begins() {
     let ast = accept("attr a = b\nc = 3\nLot --> color(c) c\nd(x) = x\nconst e = 1 F --> NIL");
-    let kinds: Vec<&str> = ast.declarations.iter().map(|d| match &d.kind {
-        DeclarationKind::Definition(d) => match d.kind {
-            DefinitionKind::Attr => "attr",
-            DefinitionKind::Const => "const",
-            DefinitionKind::Function => "function",
-        },
-        DeclarationKind::Rule(_) => "rule",
-        _ => "other",
-    }).collect();
+    let kinds: Vec<&str> = ast
+        .declarations
+        .iter()
+        .map(|d| match &d.kind {
+            DeclarationKind::Definition(d) => match d.kind {
+                DefinitionKind::Attr => "attr",
+                DefinitionKind::Const => "const",
+                DefinitionKind::Function => "function",
+            },
+            DeclarationKind::Rule(_) => "rule",
+            _ => "other",
+        })
+        .collect();
     assert_eq!(kinds, ["attr", "function", "rule", "function", "const", "rule"]);
 }
 

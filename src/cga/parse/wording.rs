@@ -15,7 +15,12 @@ pub fn wording(kind: &Rule) -> Expected {
         Rule::string => "a string in quotes",
         Rule::closing_quote => "`\"`",
         Rule::number => "a number",
-        Rule::value | Rule::expression | Rule::operand | Rule::argument | Rule::element | Rule::array_row
+        Rule::value
+        | Rule::expression
+        | Rule::operand
+        | Rule::argument
+        | Rule::element
+        | Rule::array_row
         | Rule::call => "an expression",
         Rule::close_paren => "`)`",
         Rule::comma => "`,`",
@@ -23,7 +28,11 @@ pub fn wording(kind: &Rule) -> Expected {
         Rule::semicolon => "`;`",
         Rule::equals => "`=`",
         Rule::bar => "`|`",
-        Rule::open_brace | Rule::split_block | Rule::selector_block | Rule::perimeter_block | Rule::boolean_operands
+        Rule::open_brace
+        | Rule::split_block
+        | Rule::selector_block
+        | Rule::perimeter_block
+        | Rule::boolean_operands
         | Rule::braced => "`{`",
         Rule::close_brace => "`}`",
         Rule::close_bracket => "`]`",

@@ -33,25 +33,51 @@ pub enum ExprKind {
     /// Rows of elements; an element may be a [`ExprKind::Range`] or itself an array (concatenated).
     Array(Vec<Vec<Expr>>),
     /// `from : step : to`, only as an element of an array or an index. Step 1 where absent.
-    Range { from: Box<Expr>, step: Option<Box<Expr>>, to: Box<Expr> },
+    Range {
+        from: Box<Expr>,
+        step: Option<Box<Expr>>,
+        to: Box<Expr>,
+    },
     /// A parameter or local of the rule, function or attribute being evaluated.
     Slot(u32),
     Attribute(AttributeId),
     /// A user function, evaluated on the current shape.
-    Call { function: FunctionId, args: Vec<Expr> },
+    Call {
+        function: FunctionId,
+        args: Vec<Expr>,
+    },
     /// A built-in attribute such as `scope.sx`.
     BuiltinAttribute(Attr),
     /// A built-in function. `site` is set where the function draws random numbers ([`Builtin::draws`]).
-    Builtin { function: Builtin, args: Vec<Arg>, site: Option<DrawSite> },
+    Builtin {
+        function: Builtin,
+        args: Vec<Arg>,
+        site: Option<DrawSite>,
+    },
     Unary(UnaryOperator, Box<Expr>),
     Binary(BinaryOperator, Box<Expr>, Box<Expr>),
-    Case { branches: Vec<(Expr, Expr)>, otherwise: Box<Expr> },
+    Case {
+        branches: Vec<(Expr, Expr)>,
+        otherwise: Box<Expr>,
+    },
     /// Weights in percent.
-    Stochastic { branches: Vec<(Expr, Expr)>, otherwise: Box<Expr>, site: DrawSite },
+    Stochastic {
+        branches: Vec<(Expr, Expr)>,
+        otherwise: Box<Expr>,
+        site: DrawSite,
+    },
     /// `array[row]` (linear) or `array[row, column]`.
-    Index { array: Box<Expr>, row: Box<Expr>, column: Option<Box<Expr>> },
+    Index {
+        array: Box<Expr>,
+        row: Box<Expr>,
+        column: Option<Box<Expr>>,
+    },
     /// The comp function: one value per component.
-    Comp { component: Component, keep_axes: bool, selectors: Vec<ExprSelector> },
+    Comp {
+        component: Component,
+        keep_axes: bool,
+        selectors: Vec<ExprSelector>,
+    },
     /// In a selector only: true if the current component matches the word.
     Selector(Word),
 }

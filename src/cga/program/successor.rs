@@ -11,9 +11,16 @@ use crate::source::Span;
 pub enum Successor {
     Sequence(Sequence),
     /// The first branch whose condition holds, else `otherwise`.
-    Case { branches: Vec<(Expr, Successor)>, otherwise: Box<Successor> },
+    Case {
+        branches: Vec<(Expr, Successor)>,
+        otherwise: Box<Successor>,
+    },
     /// Weights in percent; `otherwise` takes the rest.
-    Stochastic { branches: Vec<(Expr, Successor)>, otherwise: Box<Successor>, site: DrawSite },
+    Stochastic {
+        branches: Vec<(Expr, Successor)>,
+        otherwise: Box<Successor>,
+        site: DrawSite,
+    },
 }
 
 /// Items executed from left to right.
@@ -28,25 +35,78 @@ pub struct Sequence {
 #[derive(Clone, Debug, PartialEq)]
 pub enum Item {
     /// An operation without a block. Its arguments fit one of [`Operation::signatures`].
-    Operation { operation: Operation, args: Vec<Arg>, span: Span },
-    Set { target: SetTarget, value: Expr, span: Span },
+    Operation {
+        operation: Operation,
+        args: Vec<Arg>,
+        span: Span,
+    },
+    Set {
+        target: SetTarget,
+        value: Expr,
+        span: Span,
+    },
     /// A shape with a rule.
-    Call { rule: RuleId, args: Vec<Expr>, span: Span },
+    Call {
+        rule: RuleId,
+        args: Vec<Expr>,
+        span: Span,
+    },
     /// A shape without a rule: a leaf.
-    Leaf { symbol: Arc<str>, args: Vec<Expr>, span: Span },
+    Leaf {
+        symbol: Arc<str>,
+        args: Vec<Expr>,
+        span: Span,
+    },
     /// `NIL`.
     Discard,
     /// `[ ... ]`.
     Group(Box<Successor>),
-    Split { kind: SplitKind, block: SplitBlock, span: Span },
-    Comp { component: Component, keep_axes: bool, selectors: Vec<Selector>, span: Span },
+    Split {
+        kind: SplitKind,
+        block: SplitBlock,
+        span: Span,
+    },
+    Comp {
+        component: Component,
+        keep_axes: bool,
+        selectors: Vec<Selector>,
+        span: Span,
+    },
     /// `setback`, `setbackPerEdge`, `setbackToArea`, `shapeL`, `shapeU`, `shapeO`, `innerRectangle`.
-    Regions { operation: Operation, args: Vec<Arg>, selectors: Vec<Selector>, span: Span },
-    Scatter { args: Vec<Arg>, body: Box<Successor>, span: Span },
-    PerimeterSplit { args: Vec<Arg>, pattern: SectionPattern, remainder: Option<Box<Successor>>, span: Span },
-    Modify { component: Component, keep_axes: bool, selectors: Vec<Selector>, span: Span },
-    Inline { mode: InlineMode, body: Box<Successor>, span: Span },
-    Boolean { operator: BooleanOperator, left: Box<Successor>, right: Box<Successor>, span: Span },
+    Regions {
+        operation: Operation,
+        args: Vec<Arg>,
+        selectors: Vec<Selector>,
+        span: Span,
+    },
+    Scatter {
+        args: Vec<Arg>,
+        body: Box<Successor>,
+        span: Span,
+    },
+    PerimeterSplit {
+        args: Vec<Arg>,
+        pattern: SectionPattern,
+        remainder: Option<Box<Successor>>,
+        span: Span,
+    },
+    Modify {
+        component: Component,
+        keep_axes: bool,
+        selectors: Vec<Selector>,
+        span: Span,
+    },
+    Inline {
+        mode: InlineMode,
+        body: Box<Successor>,
+        span: Span,
+    },
+    Boolean {
+        operator: BooleanOperator,
+        left: Box<Successor>,
+        right: Box<Successor>,
+        span: Span,
+    },
 }
 
 /// What `set` writes.
