@@ -147,7 +147,8 @@ fn push_attributes(attributes: &mut Vec<Attributes>, number: usize, object: &Sce
     let two_sided = if object.class == SceneClass::Building { i16::MAX } else { 0 };
     attributes.extend(mesh.normals.iter().enumerate().map(|(i, n)| {
         let [x, y, z] = n.to_array().map(|c| (c.clamp(-1.0, 1.0) * f32::from(i16::MAX)).round() as i16);
-        let uv = mesh.uvs.get(i).map_or([0.0; 2], |uv| uv.to_array());
+        // The scene's v runs up, as CGA's; that of images runs down.
+        let uv = mesh.uvs.get(i).map_or([0.0; 2], |uv| [uv.x, 1.0 - uv.y]);
         Attributes { normal: [x, y, z, two_sided], uv, object: number as u32, material: 0 }
     }));
     for group in &mesh.groups {

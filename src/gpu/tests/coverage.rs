@@ -78,6 +78,45 @@ fn a_cut_out_texture_has_holes_in_the_labels() {
 }
 
 #[test]
+fn v_runs_up_in_textures() {
+    let Some(mut renderer) = super::renderer() else { return };
+    let mut scene = town::empty();
+    // Upper half of the image white, lower half black.
+    let picture = image::RgbaImage::from_fn(16, 16, |_, y| image::Rgba(if y < 8 { [255; 4] } else { [0, 0, 0, 255] }));
+    scene.textures[0].1 = std::sync::Arc::new(picture);
+    let plane = town::plane(&mut scene, (-16.0, -16.0), (16.0, 16.0), town::TEXTURED);
+    // North is up in the image and has the greater v.
+    for (p, uv) in scene.objects[plane].mesh.positions.clone().iter().zip(&mut scene.objects[plane].mesh.uvs) {
+        *uv = glam::Vec2::new(0.5, if p.z < 0.0 { 1.0 } else { 0.0 });
+    }
+    let outputs = vec![demand(&scene, Output::Color, State::Before)];
+    let frame = town::render(&mut renderer, &scene, view(nadir(0.0, 0.0, 1.0, 16, 16), sun(60.0, 0.0), outputs));
+    let red = |y: usize| town::rgb(&frame, 0)[(y * 16 + 8) * 3];
+    assert!(red(3) > 200 && red(12) == 0, "{} above {}", red(3), red(12));
+}
+
+#[test]
+fn images_wider_than_any_viewport_have_every_pixel_in_its_place() {
+    let Some(mut renderer) = super::renderer() else { return };
+    let mut scene = town::empty();
+    // Strips of 100 pixels, alternately there and not.
+    for i in (0..220).step_by(2) {
+        town::plane(&mut scene, (f64::from(i) * 10.0, -4.0), (f64::from(i + 1) * 10.0, 4.0), town::GROUND);
+    }
+    let width = 22_000;
+    let mut camera = nadir(1100.0, 0.0, 0.1, width, 2);
+    camera.projection = Projection::Orthographic { half_x: 1100.0, half_y: 0.1 };
+    let outputs = vec![demand(&scene, Output::Instance, State::Before)];
+    let frame = town::render(&mut renderer, &scene, view(camera, sun(60.0, 0.0), outputs));
+    let Pixels::Id32(ids) = &frame.images[0].pixels else { panic!("instances are numbers") };
+    for (i, &id) in ids.iter().enumerate() {
+        let strip = (i as u32 % width) / 100;
+        let expected = if strip % 2 == 0 { strip / 2 + 1 } else { 0 };
+        assert_eq!(id, expected, "pixel {}", i as u32 % width);
+    }
+}
+
+#[test]
 fn a_scene_far_from_the_origin_looks_the_same() {
     let Some(mut renderer) = super::renderer() else { return };
     let mut scene = town::town(6);

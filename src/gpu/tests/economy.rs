@@ -54,3 +54,9 @@ fn twice_gives_the_same_bytes() {
     let once = || super::renderer().map(|mut renderer| town::render(&mut renderer, &scene, demand.clone()));
     assert_eq!(once(), once());
 }
+
+#[test]
+fn renderer_may_move_to_another_thread() {
+    fn is_send<T: Send>() {}
+    is_send::<crate::gpu::Renderer>();
+}

@@ -120,6 +120,66 @@ fn the_sun_in_the_zenith_throws_no_shadow_on_the_ground() {
 }
 
 #[test]
+fn a_tower_outside_the_image_throws_its_shadow_into_it() {
+    let Some(mut renderer) = super::renderer() else { return };
+    let mut scene = town::empty();
+    town::plane(&mut scene, (-130.0, -120.0), (140.0, 128.0), town::GROUND);
+    // 40 m high, 60 m east of the image's centre; the sun in the east at 30° makes the shadow 69 m long.
+    town::block(&mut scene, Presence::Both, DVec3::new(60.0, 0.0, -8.0), DVec3::new(70.0, 40.0, 8.0));
+    let frame = town::render(&mut renderer, &scene, hard(&scene, nadir(0.0, 0.0, 1.0, 64, 64), sun(30.0, 90.0)));
+    let sun = sun(30.0, 90.0);
+    let green = |x: usize, y: usize| f64::from(rgb(&frame, 0)[(y * 64 + x) * 3 + 1]);
+    let (lit, dark) = (byte(ground(&sun, 0.2, true)[1]), byte(ground(&sun, 0.2, false)[1]));
+    assert!((green(40, 32) - dark).abs() <= 1.0, "{} in the shadow", green(40, 32));
+    assert!((green(10, 32) - lit).abs() <= 1.0, "{} beyond its end", green(10, 32));
+    assert!((green(40, 10) - lit).abs() <= 1.0, "{} beside it", green(40, 10));
+}
+
+#[test]
+fn samples_are_averaged_in_linear_light() {
+    let Some(mut renderer) = super::renderer() else { return };
+    let mut scene = town::empty();
+    // The edge at x = 0.5 m halves pixel 4 of 8.
+    town::plane(&mut scene, (-20.0, -20.0), (0.5, 20.0), town::GROUND);
+    for (supersample, share) in [(1, None), (2, Some(0.5)), (4, Some(0.5)), (6, Some(0.5)), (3, Some(1.0 / 3.0))] {
+        let mut demand = hard(&scene, nadir(0.0, 0.0, 1.0, 8, 4), sun(90.0, 0.0));
+        demand.outputs[0].shadows = Shadows::Off;
+        demand.quality.supersample = supersample;
+        let frame = town::render(&mut renderer, &scene, demand.clone());
+        let row: Vec<f64> = (0..8).map(|x| f64::from(rgb(&frame, 0)[x * 3 + 1])).collect();
+        let lit = ground(&demand.sun.expect("set"), 0.2, true)[1];
+        let empty = crate::gpu::BACKGROUND[1];
+        assert!((row[3] - byte(lit)).abs() <= 1.0 && (row[5] - byte(empty)).abs() <= 1.0, "{row:?}");
+        if let Some(share) = share {
+            let mixed = byte(lit * share + empty * (1.0 - share));
+            // A sample on the edge itself may fall to either side: 3 samples have one there.
+            let other = byte(lit * (1.0 - share) + empty * share);
+            let error = (row[4] - mixed).abs().min((row[4] - other).abs());
+            assert!(error <= 1.0, "{supersample} samples: {} is not {mixed}", row[4]);
+        }
+    }
+}
+
+#[test]
+fn sky_light_goes_with_the_normal() {
+    let Some(mut renderer) = super::renderer() else { return };
+    let mut scene = town::empty();
+    let p = |x: f64, z: f64| DVec3::new(x, 100.0 + x, z);
+    let face = vec![p(-64.0, -64.0), p(-64.0, 64.0), p(64.0, 64.0), p(64.0, -64.0)];
+    town::add(&mut scene, crate::scene::SceneClass::Building, Presence::Both, &[(face, town::GROUND)]);
+    let mut demand = hard(&scene, nadir(0.0, 0.0, 1.0, 8, 8), sun(45.0, 0.0));
+    demand.sun = None;
+    demand.outputs[0].ambient = Ambient::Sky { zenith: [0.8; 3], ground: [0.2; 3] };
+    let frame = town::render(&mut renderer, &scene, demand);
+    // A slope of 45°: the cosine of its normal to the zenith is √½.
+    let irradiance = 0.2 + 0.6 * (0.5 + 0.5 * 0.5f64.sqrt());
+    let expected = [0.55, 0.6, 0.5].map(|c| byte(linear_from_srgb(c) * irradiance));
+    for pixel in rgb(&frame, 0).chunks_exact(3) {
+        assert!((0..3).all(|c| (f64::from(pixel[c]) - expected[c]).abs() <= 1.0), "{pixel:?}, not {expected:?}");
+    }
+}
+
+#[test]
 fn unchanged_surroundings_are_the_same_pixels_before_and_after() {
     let Some(mut renderer) = super::renderer() else { return };
     let mut scene = town::town(3);
