@@ -243,11 +243,28 @@ fn long_flat_chains_are_no_nesting() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(200))]
+    #![proptest_config(ProptestConfig::with_cases(100))]
 
     #[test]
     fn any_text_gives_a_tree_or_errors(text in "\\PC{0,200}") {
         read(&text);
+    }
+
+    #[test]
+    fn a_damaged_text_gives_a_tree_or_errors(cut in 0usize..2000, length in 0usize..30, put in "[\\[\\](){}|\"':=*%.~ -]{0,3}") {
+        let text = include_str!("../../../rules/residential.cga");
+        let floor = |mut at: usize| {
+            at = at.min(text.len());
+            while !text.is_char_boundary(at) {
+                at -= 1;
+            }
+            at
+        };
+        let (from, to) = (floor(cut), floor(cut + length));
+        let (_, diagnostics, sources) = read(&format!("{}{put}{}", &text[..from], &text[to..]));
+        for diagnostic in diagnostics.iter() {
+            prop_assert!(!crate::diagnostics::render(diagnostic, &sources, false).is_empty());
+        }
     }
 
     #[test]
