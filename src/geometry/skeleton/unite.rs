@@ -5,7 +5,7 @@
 
 use super::SkeletonError;
 use super::faces::{FaceLoops, STEPS_PER_TAU, WELD_STEPS, near};
-use super::wavefront::{GridNode, LineId, NodeId, Wavefront};
+use super::wavefront::{GridNode, LineId, NONE, NodeId, Wavefront};
 
 /// Cut every shared face at its unions. `weld` maps nodes to those that stand for them; `tops` are the loops of the
 /// stopped wavefront, which get the new corners too.
@@ -35,7 +35,8 @@ pub(super) fn cut_united(
         };
         split_face(faces, face, node, end)?;
     }
-    name_by_eaves(wf, weld, faces)
+    name_by_eaves(wf, weld, faces);
+    Ok(())
 }
 
 /// The face of `root` (or a part of it) and the corner in it that is `node`.
@@ -76,29 +77,35 @@ fn split_face(faces: &mut Vec<FaceLoops>, face: usize, p: NodeId, q: NodeId) -> 
     Ok(())
 }
 
-/// Let every part of a shared face be known by the eave it contains.
-fn name_by_eaves(wf: &Wavefront, weld: &[NodeId], faces: &mut [FaceLoops]) -> Result<(), SkeletonError> {
-    let mut eaves: Vec<(NodeId, NodeId, LineId)> =
-        wf.eaves.iter().map(|&(line, from, to)| (weld[from as usize], weld[to as usize], line)).collect();
+/// Let every part of a shared face be known by the eave it contains, and start with it.
+fn name_by_eaves(wf: &Wavefront, weld: &[NodeId], faces: &mut [FaceLoops]) {
+    type Eave = (LineId, NodeId, NodeId, LineId);
+    let of_face = |&(line, from, to): &(LineId, NodeId, NodeId)| -> Eave {
+        (wf.faces.root(line), weld[from as usize], weld[to as usize], line)
+    };
+    let mut eaves: Vec<Eave> = wf.eaves.iter().map(of_face).collect();
     eaves.sort_unstable();
     for face in faces {
         let count = face.outer.len();
         let mut best: Option<(LineId, usize)> = None;
         for k in 0..count {
-            let pair = (face.outer[k], face.outer[(k + 1) % count]);
-            let found = eaves.binary_search_by_key(&pair, |&(from, to, _)| (from, to));
+            let key = (face.root, face.outer[k], face.outer[(k + 1) % count]);
+            let found = eaves.binary_search_by_key(&key, |&(root, from, to, _)| (root, from, to));
             if let Ok(e) = found
-                && best.is_none_or(|(line, _)| eaves[e].2 < line)
+                && best.is_none_or(|(line, _)| eaves[e].3 < line)
             {
-                best = Some((eaves[e].2, k));
+                best = Some((eaves[e].3, k));
             }
         }
-        if let Some((line, k)) = best {
-            face.root = line;
-            face.outer.rotate_left(k);
+        match best {
+            Some((line, k)) => {
+                face.root = line;
+                face.outer.rotate_left(k);
+            }
+            // A part of an auxiliary line that ran into an edge on its own line.
+            None => face.root = NONE,
         }
     }
-    Ok(())
 }
 
 /// Coordinates along an edge and in time; a face is a polygon in them, also where the edge stands still.

@@ -11,7 +11,7 @@ pub(super) type LineId = u32;
 pub(super) type VertexId = u32;
 pub(super) type NodeId = u32;
 
-/// No vertex.
+/// No vertex, or no edge.
 pub(super) const NONE: u32 = u32::MAX;
 
 /// A corner of the wavefront, between line `l` (whose fragment ends here) and `r` (whose fragment starts here).
