@@ -62,7 +62,7 @@ impl Crs {
     }
 
     /// WGS84 degrees to the file's coordinates; `None` outside the projection's domain.
-    pub fn from_lon_lat(&self, lon: f64, lat: f64) -> Option<DVec2> {
+    pub fn project(&self, lon: f64, lat: f64) -> Option<DVec2> {
         let (file, wgs84, unit) = match &self.kind {
             Kind::Degrees => return Some(DVec2::new(lon, lat)),
             Kind::Geographic { file, wgs84 } => (file, wgs84, 180.0 / std::f64::consts::PI),
@@ -73,7 +73,7 @@ impl Crs {
     }
 
     /// The file's coordinates to WGS84 degrees; `None` outside the projection's domain.
-    pub fn to_lon_lat(&self, point: DVec2) -> Option<(f64, f64)> {
+    pub fn unproject(&self, point: DVec2) -> Option<(f64, f64)> {
         let (file, wgs84, unit) = match &self.kind {
             Kind::Degrees => return Some((point.x, point.y)),
             Kind::Geographic { file, wgs84 } => (file, wgs84, std::f64::consts::PI / 180.0),
@@ -102,7 +102,7 @@ fn horizontal(definition: &str) -> Result<String, String> {
     let mut kept = Vec::new();
     for token in definition.split_whitespace() {
         let grid = token.strip_prefix("+nadgrids=").is_some_and(|g| g != "@null");
-        if token == "+datum=NAD27" && !shifted || grid && !shifted {
+        if (grid || token == "+datum=NAD27") && !shifted {
             return Err("it needs datum shift grids, which are not supported; reproject the file to WGS84".to_owned());
         }
         let vertical = ["+geoidgrids=", "+vunits=", "+vto_meter=", "+geoid_crs="].iter().any(|v| token.starts_with(v));
@@ -134,14 +134,14 @@ mod tests {
     fn feet_and_metres_and_degrees() {
         // State plane zone 3 (US feet) and Albers at their published false origins.
         let feet = Crs::parse("EPSG:2227").unwrap();
-        let origin = feet.from_lon_lat(-120.5, 36.5).unwrap();
+        let origin = feet.project(-120.5, 36.5).unwrap();
         assert!((origin - DVec2::new(6_561_666.667, 1_640_416.667)).length() < 0.01, "{origin}");
         let albers = Crs::parse("EPSG:3310").unwrap();
-        assert!((albers.from_lon_lat(-120.0, 0.0).unwrap() - DVec2::new(0.0, -4_000_000.0)).length() < 1e-3);
+        assert!((albers.project(-120.0, 0.0).unwrap() - DVec2::new(0.0, -4_000_000.0)).length() < 1e-3);
         let degrees = Crs::parse("epsg:4269").unwrap();
-        assert_eq!(degrees.from_lon_lat(-120.0, 35.0), Some(DVec2::new(-120.0, 35.0)));
+        assert_eq!(degrees.project(-120.0, 35.0), Some(DVec2::new(-120.0, 35.0)));
         assert!(degrees.is_geographic() && !albers.is_geographic());
-        let back = feet.to_lon_lat(feet.from_lon_lat(-122.0, 37.5).unwrap()).unwrap();
+        let back = feet.unproject(feet.project(-122.0, 37.5).unwrap()).unwrap();
         assert!((back.0 + 122.0).abs() < 1e-9 && (back.1 - 37.5).abs() < 1e-9);
     }
 
@@ -149,7 +149,7 @@ mod tests {
     fn a_shifted_datum_is_shifted() {
         // Airy's ellipsoid lies about 100 m off WGS84 in Britain.
         let osgb = Crs::parse("EPSG:4277").unwrap();
-        let p = osgb.from_lon_lat(-2.0, 52.0).unwrap();
+        let p = osgb.project(-2.0, 52.0).unwrap();
         let metres = DVec2::new((p.x + 2.0) * 68_600.0, (p.y - 52.0) * 111_250.0);
         assert!((60.0..160.0).contains(&metres.length()), "{metres}");
     }

@@ -54,7 +54,7 @@ impl Placement {
     /// Cell coordinates of a place, also outside the cells; of the longitudes that repeat every 360 degrees the one
     /// nearest to the middle of the raster is taken.
     pub(crate) fn near_cell_at(&self, lon: f64, lat: f64) -> Option<DVec2> {
-        let c = self.cell_from_crs.transform_point2(self.crs.from_lon_lat(lon, lat)?);
+        let c = self.cell_from_crs.transform_point2(self.crs.project(lon, lat)?);
         if !self.crs.is_geographic() {
             return Some(c);
         }
@@ -66,7 +66,7 @@ impl Placement {
 
     /// Longitude and latitude of cell coordinates.
     pub(crate) fn place_of(&self, cell: DVec2) -> Option<(f64, f64)> {
-        self.crs.to_lon_lat(self.crs_from_cell.transform_point2(cell))
+        self.crs.unproject(self.crs_from_cell.transform_point2(cell))
     }
 
     /// The cells that a box needs, with a margin, or all without a box. Of zero size if the box lies outside.

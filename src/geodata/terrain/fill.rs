@@ -84,8 +84,8 @@ mod tests {
             heights[c] = f32::NAN;
         }
         assert_eq!(fill_voids(&mut heights, width), 14 * 11);
-        for c in 0..heights.len() {
-            assert!((heights[c] - plane(c)).abs() < 0.05, "cell {c}: {} is not {}", heights[c], plane(c));
+        for (c, h) in heights.iter().enumerate() {
+            assert!((h - plane(c)).abs() < 0.05, "cell {c}: {h} is not {}", plane(c));
         }
     }
 

@@ -26,7 +26,7 @@ impl<'a> Borders<'a> {
     /// Adds all rings of a polygon.
     pub(super) fn add_polygon(&mut self, polygon: &Polygon) -> Result<(), GroundError> {
         for ring in polygon.rings() {
-            if ring.iter().any(|p| !(p.abs().max_element() <= MAX_COORDINATE_M)) {
+            if ring.iter().any(|p| !p.is_finite() || p.abs().max_element() > MAX_COORDINATE_M) {
                 return Err(GroundError::Coordinate);
             }
             for (i, &a) in ring.iter().enumerate() {

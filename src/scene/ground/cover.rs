@@ -28,7 +28,7 @@ pub(super) enum Owner {
 /// The area and all polygons, uppermost first, found by place.
 pub(super) struct Cover<'a> {
     area: &'a Polygon,
-    polygons: Vec<(&'a Polygon, &'a GroundLayer)>,
+    polygons: Vec<Piece<'a>>,
     lo: DVec2,
     cell: f64,
     columns: usize,
@@ -36,21 +36,37 @@ pub(super) struct Cover<'a> {
     squares: Vec<Vec<u32>>,
 }
 
+struct Piece<'a> {
+    polygon: &'a Polygon,
+    lo: DVec2,
+    hi: DVec2,
+    layer: &'a GroundLayer,
+}
+
+impl Piece<'_> {
+    fn contains(&self, plan: DVec2) -> bool {
+        plan.cmpge(self.lo).all() && plan.cmple(self.hi).all() && self.polygon.contains(plan)
+    }
+}
+
 impl<'a> Cover<'a> {
     pub(super) fn new(area: &'a Polygon, layers: &'a [GroundLayer]) -> Self {
-        let mut polygons: Vec<_> = layers.iter().flat_map(|l| l.polygons.iter().map(move |p| (p, l))).collect();
-        polygons.sort_by_key(|(_, layer)| std::cmp::Reverse(layer.priority));
+        let mut polygons = Vec::new();
+        for layer in layers {
+            let piece = |polygon: &'a Polygon| polygon.bounds().map(|(lo, hi)| Piece { polygon, lo, hi, layer });
+            polygons.extend(layer.polygons.iter().filter_map(piece));
+        }
+        polygons.sort_by_key(|piece| std::cmp::Reverse(piece.layer.priority));
         let (lo, hi) = area.bounds().unwrap_or_default();
         let cell = CELL_M.max((hi - lo).max_element() / MAX_CELLS);
         let columns = ((hi.x - lo.x) / cell) as usize + 1;
         let rows = ((hi.y - lo.y) / cell) as usize + 1;
         let mut squares = vec![Vec::new(); columns * rows];
-        for (index, (polygon, _)) in polygons.iter().enumerate() {
-            let Some((a, b)) = polygon.bounds() else { continue };
-            if a.cmpgt(hi).any() || b.cmplt(lo).any() {
+        for (index, piece) in polygons.iter().enumerate() {
+            if piece.lo.cmpgt(hi).any() || piece.hi.cmplt(lo).any() {
                 continue;
             }
-            let (a, b) = (((a - lo) / cell).max(DVec2::ZERO), ((b - lo) / cell).max(DVec2::ZERO));
+            let (a, b) = (((piece.lo - lo) / cell).max(DVec2::ZERO), ((piece.hi - lo) / cell).max(DVec2::ZERO));
             for row in a.y as usize..=(b.y as usize).min(rows - 1) {
                 for column in a.x as usize..=(b.x as usize).min(columns - 1) {
                     squares[row * columns + column].push(index as u32);
@@ -61,24 +77,25 @@ impl<'a> Cover<'a> {
     }
 
     pub(super) fn payload(&self, polygon: usize) -> u32 {
-        self.polygons[polygon].1.payload
+        self.polygons[polygon].layer.payload
     }
 
     /// The uppermost polygon at a place.
     pub(super) fn owner(&self, plan: DVec2) -> Owner {
+        self.owner_or_bare(plan, true)
+    }
+
+    /// As [`Cover::owner`], but without `layers` only inside and outside are told apart.
+    pub(super) fn owner_or_bare(&self, plan: DVec2, layers: bool) -> Owner {
         if !self.area.contains(plan) {
             return Owner::Outside;
+        } else if !layers {
+            return Owner::Bare;
         }
         let at = ((plan - self.lo) / self.cell).max(DVec2::ZERO);
         let square = self.squares.get(at.y as usize * self.columns + (at.x as usize).min(self.columns - 1));
-        let here = square.into_iter().flatten().map(|&i| i as usize);
-        here.into_iter()
-            .find(|&i| {
-                let polygon = self.polygons[i].0;
-                polygon.bounds().is_some_and(|(lo, hi)| plan.cmpge(lo).all() && plan.cmple(hi).all())
-                    && polygon.contains(plan)
-            })
-            .map_or(Owner::Bare, Owner::Layer)
+        let mut here = square.into_iter().flatten().map(|&i| i as usize);
+        here.find(|&i| self.polygons[i].contains(plan)).map_or(Owner::Bare, Owner::Layer)
     }
 }
 
@@ -118,7 +135,7 @@ pub(super) fn owners(triangulation: &Triangulation, cover: &Cover) -> Vec<Owner>
 /// Sets the vertices of level polygons to the least terrain height along their visible shore; gives which polygons
 /// are level.
 pub(super) fn level_water(triangulation: &mut Triangulation, cover: &Cover, terrain: &Terrain) -> Vec<bool> {
-    let level: Vec<bool> = cover.polygons.iter().map(|(_, l)| l.surface == Surface::Level).collect();
+    let level: Vec<bool> = cover.polygons.iter().map(|p| p.layer.surface == Surface::Level).collect();
     if !level.contains(&true) || terrain.is_flat() {
         return level;
     }

@@ -83,10 +83,11 @@ pub fn build_ground(
     tolerance_m: f64,
     layers: &[GroundLayer],
 ) -> Result<GroundMesh, GroundError> {
-    if !(tolerance_m > 0.0) {
+    if tolerance_m.is_nan() || tolerance_m <= 0.0 {
         return Err(GroundError::Tolerance(tolerance_m));
     }
-    let (lo, hi) = area.bounds().filter(|(lo, hi)| (*hi - *lo).min_element() > 0.0).ok_or(GroundError::EmptyArea)?;
+    let (lo, hi) =
+        area.bounds().filter(|(lo, hi)| (*hi - *lo).cmpgt(DVec2::ZERO).all()).ok_or(GroundError::EmptyArea)?;
 
     // Borders, bent with the terrain. A border that is split later can be off twice as far.
     let mut borders = border::Borders::new(lo, hi, terrain, tolerance_m / 2.0);
@@ -112,11 +113,12 @@ pub fn build_ground(
 
 /// The terrain's posts inside the area but not on level water, on the lattice.
 fn posts(terrain: &Terrain, lo: DVec2, hi: DVec2, cover: &Cover, level: &[bool]) -> Vec<Vertex> {
+    let any_level = level.contains(&true);
     let snapped = terrain.posts(lo, hi).into_iter().map(|p| lattice::metres(lattice::snap(p)));
-    let wanted = snapped.filter(|&p| match cover.owner(p) {
+    let wanted = snapped.filter(|&p| match cover.owner_or_bare(p, any_level) {
         cover::Owner::Outside => false,
         cover::Owner::Bare => true,
-        cover::Owner::Layer(polygon) => !level.get(polygon).copied().unwrap_or(false),
+        cover::Owner::Layer(polygon) => !level[polygon],
     });
     wanted.filter_map(|p| terrain.height(p).map(|h| Vertex::new(p, h))).collect()
 }

@@ -249,6 +249,7 @@ fn nasty_input_is_survived_or_refused() {
         assert!((areas(&mesh).values().sum::<f64>() - 40_000.0).abs() < 1e-6, "{polygon:?}");
     }
     assert_eq!(build(square(DVec2::NAN, 1.0)), Err(GroundError::Coordinate));
+    assert_eq!(build(line(&[[0.0, f64::NAN], [9.0, 0.0], [0.0, 9.0]])), Err(GroundError::Coordinate));
     assert_eq!(build(square(DVec2::new(2e6, 0.0), 1.0)), Err(GroundError::Coordinate));
     assert_eq!(build_ground(&Polygon::default(), hills(), 0.5, &[]), Err(GroundError::EmptyArea));
     assert_eq!(build_ground(&area, hills(), 0.0, &[]), Err(GroundError::Tolerance(0.0)));
