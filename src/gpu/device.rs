@@ -33,8 +33,7 @@ impl Gpu {
             compatible_surface: None,
             apply_limit_buckets: false,
         };
-        let adapter = pollster::block_on(instance.request_adapter(&options))
-            .map_err(|error| GpuError::NoAdapter(error.to_string()))?;
+        let adapter = pollster::block_on(instance.request_adapter(&options)).map_err(GpuError::NoAdapter)?;
         let info = adapter.get_info();
         let limits = adapter.limits();
         let request = wgpu::DeviceDescriptor {

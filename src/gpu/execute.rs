@@ -7,7 +7,7 @@ use super::draws::{self, DrawList};
 use super::passes::{Drawing, depth, ids, resolve, shade, shadow_map};
 use super::pipelines::Pipelines;
 use super::pools::{Target, TargetPool};
-use super::readback::{Readback, blank};
+use super::readback::{Harvest, Readback, blank};
 use super::tiles::{self, Tile, ViewUniform, light_planes, light_view, panel, panel_view, tile_planes, tile_size};
 use super::upload::GpuScene;
 use super::{GpuError, Renderer};
@@ -131,7 +131,8 @@ impl Execution<'_> {
             for pass in &stage.passes {
                 self.pass(&mut encoder, pass, (tile, size), &targets);
             }
-            self.readback.collect(self.gpu, encoder, self.view, tile, &stage.products, &targets, images)?;
+            let harvest = Harvest { view: self.view, tile, products: &stage.products, targets: &targets };
+            self.readback.collect(self.gpu, encoder, harvest, images)?;
         }
         Ok(())
     }

@@ -29,10 +29,10 @@ pub const BACKGROUND: [f64; 3] = [0.125, 0.133, 0.112];
 #[derive(Debug, thiserror::Error)]
 pub enum GpuError {
     #[error(
-        "no Vulkan, Metal or DirectX 12 adapter was found ({0}); on Debian the package mesa-vulkan-drivers gives a \
-         software adapter"
+        "no Vulkan, Metal or DirectX 12 adapter was found; on Debian the package mesa-vulkan-drivers gives one that \
+         runs on the CPU"
     )]
-    NoAdapter(String),
+    NoAdapter(#[source] wgpu::RequestAdapterError),
     #[error("the adapter {adapter} gave no device: {reason}")]
     NoDevice { adapter: String, reason: String },
     #[error("the adapter {adapter} failed while {task}: {reason}")]

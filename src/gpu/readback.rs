@@ -15,6 +15,14 @@ use crate::plan::resource::ResourceId;
 /// Bytes per texel of everything that is read back.
 const TEXEL: u32 = 4;
 
+/// What is read of a stage: the products of one tile.
+pub struct Harvest<'a> {
+    pub view: &'a ViewPlan,
+    pub tile: Tile,
+    pub products: &'a [Product],
+    pub targets: &'a BTreeMap<ResourceId, Target>,
+}
+
 /// A buffer that the CPU can read, grown as needed.
 #[derive(Default)]
 pub struct Readback {
@@ -40,12 +48,10 @@ impl Readback {
         &mut self,
         gpu: &Gpu,
         mut encoder: wgpu::CommandEncoder,
-        view: &ViewPlan,
-        tile: Tile,
-        products: &[Product],
-        targets: &BTreeMap<ResourceId, Target>,
+        harvest: Harvest,
         images: &mut [Option<Pixels>],
     ) -> Result<(), GpuError> {
+        let Harvest { view, tile, products, targets } = harvest;
         // Depth can only be copied as a whole; the targets of a stage's products have one size.
         let (width, height) = products.first().map_or((0, 0), |p| targets[&p.source].size);
         let stride = (width * TEXEL).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);

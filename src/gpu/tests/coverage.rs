@@ -111,7 +111,7 @@ fn images_wider_than_any_viewport_have_every_pixel_in_its_place() {
     let Pixels::Id32(ids) = &frame.images[0].pixels else { panic!("instances are numbers") };
     for (i, &id) in ids.iter().enumerate() {
         let strip = (i as u32 % width) / 100;
-        let expected = if strip % 2 == 0 { strip / 2 + 1 } else { 0 };
+        let expected = if strip.is_multiple_of(2) { strip / 2 + 1 } else { 0 };
         assert_eq!(id, expected, "pixel {}", i as u32 % width);
     }
 }
