@@ -28,7 +28,9 @@ pub fn gable(
     let (out, beyond) = (check_overhang(overhang_x)?, check_overhang(overhang_y)?);
     slope.tangent(1.0)?;
     let mut plan = match index {
-        Some(index) if polygon.holes.is_empty() && is_convex(polygon) => upright_at(polygon, &opposite(polygon, index))?,
+        Some(index) if polygon.holes.is_empty() && is_convex(polygon) => {
+            upright_at(polygon, &opposite(polygon, index))?
+        }
         _ => gabled(polygon)?,
     };
     let tangent = slope.tangent(plan.highest())?;
@@ -226,9 +228,13 @@ fn cover_pediment(plan: &mut PlanRoof, edges: &Edges, edge: usize, tip: u32, str
     let (start, stop) = edges.ends[edge];
     for face in &mut plan.faces {
         let RoofPart::Top { edge: Some(own) } = face.part else { continue };
-        if own == before && let Some(at) = face.ring.iter().position(|&n| n == start) {
+        if own == before
+            && let Some(at) = face.ring.iter().position(|&n| n == start)
+        {
             face.ring.splice(at + 1..at + 1, strip[..k].iter().copied().chain([end]));
-        } else if own == after && let Some(at) = face.ring.iter().position(|&n| n == tip) {
+        } else if own == after
+            && let Some(at) = face.ring.iter().position(|&n| n == tip)
+        {
             debug_assert_eq!(face.ring[(at + 1) % face.ring.len()], stop);
             face.ring.splice(at + 1..at + 1, std::iter::once(end).chain(strip[k..].iter().copied()));
         }
@@ -239,14 +245,15 @@ fn cover_pediment(plan: &mut PlanRoof, edges: &Edges, edge: usize, tip: u32, str
 fn clip_gables(plan: &mut PlanRoof, polygon: &Polygon, fraction: f64) {
     let edges = Edges::of(polygon);
     for f in 0..plan.faces.len() {
-        let (RoofPart::Side { edge }, &[start, end, tip]) = (plan.faces[f].part, &plan.faces[f].ring[..]) else { continue };
+        let (RoofPart::Side { edge }, &[start, end, tip]) = (plan.faces[f].part, &plan.faces[f].ring[..]) else {
+            continue;
+        };
         let Some((along, rise)) = ridge_over(&edges, edge) else { continue };
         let top = *plan.node(tip);
         // Where the plane of the edge itself would meet the ridge.
         let reach = top.height / (along.dot(edges.normal(edge)) - rise);
-        let shrunk = |p: DVec2, h: f64| {
-            (top.position.lerp(p, 1.0 - fraction), top.height + (h - top.height) * (1.0 - fraction))
-        };
+        let shrunk =
+            |p: DVec2, h: f64| (top.position.lerp(p, 1.0 - fraction), top.height + (h - top.height) * (1.0 - fraction));
         let mut add = |(position, height)| plan.add_node(position, height);
         let left = add(shrunk(edges.start(edge), 0.0));
         let right = add(shrunk(edges.end(edge), 0.0));

@@ -35,9 +35,13 @@ pub enum Slope {
 pub enum RoofPart {
     Bottom,
     /// A roof plane over an edge (index over the outer ring, then holes), or a plane over the whole polygon.
-    Top { edge: Option<usize> },
+    Top {
+        edge: Option<usize>,
+    },
     /// A vertical face over an edge: pediment or wall.
-    Side { edge: usize },
+    Side {
+        edge: usize,
+    },
 }
 
 /// A closed roof: `parts[i]` tells what `mesh.faces[i]` is. The bottom comes first (the polygon, facing down), then the

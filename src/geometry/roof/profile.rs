@@ -134,7 +134,11 @@ fn cut_at(plan: &mut PlanRoof, level: f64) {
             let (p, q) = (ring[k], ring[(k + 1) % ring.len()]);
             let (hp, hq) = (plan.node(p).height, plan.node(q).height);
             whole.push(p);
-            if hp <= level { below.push(p) } else { run.push(p) }
+            if hp <= level {
+                below.push(p)
+            } else {
+                run.push(p)
+            }
             if (hp <= level) == (hq <= level) {
                 continue;
             }

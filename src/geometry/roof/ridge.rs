@@ -21,9 +21,8 @@ use crate::geometry::skeleton::SkeletonError;
 pub fn ridge(polygon: &Polygon, slope: Slope, along: DVec2) -> Result<Roof, RoofError> {
     let across = along.try_normalize().ok_or(RoofError::Direction(along))?.perp();
     let Some(&origin) = polygon.outer.first() else { return Err(SkeletonError::TooFewPoints.into()) };
-    let extent = |f: fn(f64, f64) -> f64, start: f64| {
-        polygon.outer.iter().map(|&p| across.dot(p - origin)).fold(start, f)
-    };
+    let extent =
+        |f: fn(f64, f64) -> f64, start: f64| polygon.outer.iter().map(|&p| across.dot(p - origin)).fold(start, f);
     let (low, high) = (extent(f64::min, f64::INFINITY), extent(f64::max, f64::NEG_INFINITY));
     if !(high > low) {
         return Err(SkeletonError::TooFewPoints.into());

@@ -31,7 +31,8 @@ pub fn skillion(polygon: &Polygon, slope: Slope, downhill: DVec2) -> Result<Roof
     let edges = Edges::of(polygon);
     // The eave is the edge that faces downhill most.
     let facing = |&e: &usize| (edges.normal(e).dot(uphill), std::cmp::Reverse(e));
-    let eave = (0..polygon.outer.len()).max_by(|p, q| facing(p).0.total_cmp(&facing(q).0).then(facing(p).1.cmp(&facing(q).1)));
+    let eave =
+        (0..polygon.outer.len()).max_by(|p, q| facing(p).0.total_cmp(&facing(q).0).then(facing(p).1.cmp(&facing(q).1)));
     inclined(polygon, slope, uphill, eave.ok_or(SkeletonError::TooFewPoints)?)
 }
 

@@ -28,10 +28,7 @@ fn u_12() -> Polygon {
 
 /// Outline 12 x 12 around a courtyard of 4 x 4.
 fn courtyard() -> Polygon {
-    polygon(
-        &[(0.0, 0.0), (12.0, 0.0), (12.0, 12.0), (0.0, 12.0)],
-        &[&[(4.0, 8.0), (8.0, 8.0), (8.0, 4.0), (4.0, 4.0)]],
-    )
+    polygon(&[(0.0, 0.0), (12.0, 0.0), (12.0, 12.0), (0.0, 12.0)], &[&[(4.0, 8.0), (8.0, 8.0), (8.0, 4.0), (4.0, 4.0)]])
 }
 
 fn volume(roof: &Roof) -> f64 {
@@ -150,8 +147,13 @@ fn gable_on_a_rectangle() {
 #[test]
 fn gable_with_overhangs() {
     let roof = gable(&rectangle(10.0, 6.0), Slope::Angle(30.0), 1.0, 0.5, false, None).unwrap();
-    assert!((size(&roof) - DVec3::new(11.0, 1.7320508 + 0.5, 6.0 + 2.0 * 0.8660254)).length() < 1e-6, "{}", size(&roof));
-    let planes: Vec<f64> = (0..5).filter(|&f| matches!(roof.parts[f], RoofPart::Top { .. })).map(|f| area(&roof, f)).collect();
+    assert!(
+        (size(&roof) - DVec3::new(11.0, 1.7320508 + 0.5, 6.0 + 2.0 * 0.8660254)).length() < 1e-6,
+        "{}",
+        size(&roof)
+    );
+    let planes: Vec<f64> =
+        (0..5).filter(|&f| matches!(roof.parts[f], RoofPart::Top { .. })).map(|f| area(&roof, f)).collect();
     // 11 m along the ridge, 3 / cos 30 + 1 m down the slope.
     assert_eq!(planes.len(), 2);
     planes.iter().for_each(|&a| close(a, 11.0 * (3.0 / 0.8660254038 + 1.0)));
@@ -273,7 +275,10 @@ fn bent_roofs() {
 #[test]
 fn even_ridges() {
     // Wings of different width: ridges at 2 and 3 become 2.5.
-    let t = polygon(&[(0.0, 0.0), (20.0, 0.0), (20.0, 6.0), (10.0, 6.0), (10.0, 16.0), (6.0, 16.0), (6.0, 6.0), (0.0, 6.0)], &[]);
+    let t = polygon(
+        &[(0.0, 0.0), (20.0, 0.0), (20.0, 6.0), (10.0, 6.0), (10.0, 16.0), (6.0, 16.0), (6.0, 6.0), (0.0, 6.0)],
+        &[],
+    );
     let roof = hip(&t, Slope::Angle(45.0), 0.0, true).unwrap();
     assert_sound(&roof, &t);
     let mut heights: Vec<f64> = roof.mesh.positions.iter().map(|p| p.y).filter(|&h| h > 0.0).collect();

@@ -79,9 +79,8 @@ impl Probe {
     fn of(wf: &Wavefront, v: VertexId) -> Probe {
         let vertex = wf.vertex(v);
         let (l, r) = (wf.line(vertex.l), wf.line(vertex.r));
-        let minor = |u: i64, v: i64, s: i64, t: i64| {
-            (i128::from(u) * i128::from(v) - i128::from(s) * i128::from(t)) as f64
-        };
+        let minor =
+            |u: i64, v: i64, s: i64, t: i64| (i128::from(u) * i128::from(v) - i128::from(s) * i128::from(t)) as f64;
         let cross = l.cross(r) as f64;
         Probe {
             d: [minor(r.w, l.b, l.w, r.b), minor(l.w, r.a, r.w, l.a), cross],

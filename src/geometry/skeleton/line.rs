@@ -150,7 +150,6 @@ impl Place {
     }
 }
 
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -174,7 +173,8 @@ mod tests {
 
     #[test]
     fn place_of_two_lines_agrees_with_that_of_three() {
-        let lines = [edge([0, 0], [700_001, 13]), edge([700_001, 13], [650_000, 400_000]), edge([650_000, 400_000], [0, 0])];
+        let lines =
+            [edge([0, 0], [700_001, 13]), edge([700_001, 13], [650_000, 400_000]), edge([650_000, 400_000], [0, 0])];
         let place = Place::of(&lines[0], &lines[1], &lines[2]).expect("an incentre");
         let again = Place::at(place.moment, &lines[2], &lines[0]).expect("a corner");
         assert!((place.x - again.x).abs() < 1e-6 && (place.y - again.y).abs() < 1e-6);
