@@ -54,7 +54,15 @@ pub fn clip_line(line: &[DVec2], ring: &[DVec2]) -> Vec<Vec<DVec2>> {
         cuts.dedup();
         for t in cuts.windows(2) {
             let inside = ring_contains(ring, a.lerp(b, (t[0] + t[1]) / 2.0));
-            let at = |t: f64| if t == 0.0 { a } else if t == 1.0 { b } else { a.lerp(b, t) };
+            let at = |t: f64| {
+                if t == 0.0 {
+                    a
+                } else if t == 1.0 {
+                    b
+                } else {
+                    a.lerp(b, t)
+                }
+            };
             match (inside, open, pieces.last_mut()) {
                 (true, true, Some(piece)) => piece.push(at(t[1])),
                 (true, ..) => pieces.push(vec![at(t[0]), at(t[1])]),

@@ -3,13 +3,13 @@
 use glam::DVec2;
 
 use super::gather::{Body, Candidate};
-use super::multipolygon::Group;
+use super::multipolygon::{Combine, Group};
 use super::ribbon::{Cap, ribbon};
 use super::scene::Scene;
 use crate::geodata::feature::{Feature, FeatureClass, FeatureId, Outline, Tags};
 use crate::geodata::ledger::Outcome;
 use crate::geodata::tags::{first, length};
-use crate::geometry::boolean::union;
+use crate::geometry::boolean::{symmetric_difference, union};
 use crate::geometry::repair::{Note, Options, Verdict, repair};
 use crate::geometry::{Polygon, Ring};
 
@@ -24,7 +24,7 @@ pub struct Built {
 pub fn build(scene: &Scene, candidate: &Candidate) -> Built {
     let mut notes = candidate.notes.clone();
     let made = match &candidate.body {
-        Body::Area { groups, overlapping } => polygons(scene, groups, *overlapping, &mut notes),
+        Body::Area { groups, combine } => polygons(scene, groups, *combine, &mut notes),
         Body::Lines(lines) if candidate.class == FeatureClass::Water => brook(scene, lines, &candidate.tags),
         Body::Lines(lines) => Ok(lines_inside(scene, lines).into_iter().map(Outline::Line).collect()),
     };
@@ -55,7 +55,7 @@ fn join(mut notes: Vec<String>, why: String) -> String {
 fn polygons(
     scene: &Scene,
     groups: &[Group],
-    overlapping: bool,
+    combine: Combine,
     notes: &mut Vec<String>,
 ) -> Result<Vec<Outline>, String> {
     let mut all = Vec::new();
@@ -77,9 +77,12 @@ fn polygons(
         None if all.is_empty() => return Err("the outline encloses no area".to_owned()),
         None => {}
     }
-    if overlapping {
-        all = union(&all, &[]).map_err(|e| e.to_string())?;
-    }
+    let all = match combine {
+        Combine::Side => Ok(all),
+        Combine::Union => union(&all, &[]),
+        Combine::EvenOdd => all.into_iter().try_fold(Vec::new(), |sum, ring| symmetric_difference(&sum, &[ring])),
+    };
+    let all = all.map_err(|e| e.to_string())?;
     Ok(all.into_iter().map(Outline::Area).collect())
 }
 

@@ -27,8 +27,27 @@ const NOT_THERE: [&str; 8] =
 
 /// Values of `natural` that name a line, a point or a region instead of a cover.
 const NOT_COVER: [&str; 22] = [
-    "arch", "arete", "bay", "cape", "cave_entrance", "cliff", "coastline", "earth_bank", "gorge", "gully", "hill",
-    "isthmus", "mountain_range", "peak", "peninsula", "plateau", "ridge", "saddle", "strait", "tree", "tree_row",
+    "arch",
+    "arete",
+    "bay",
+    "cape",
+    "cave_entrance",
+    "cliff",
+    "coastline",
+    "earth_bank",
+    "gorge",
+    "gully",
+    "hill",
+    "isthmus",
+    "mountain_range",
+    "peak",
+    "peninsula",
+    "plateau",
+    "ridge",
+    "saddle",
+    "strait",
+    "tree",
+    "tree_row",
     "valley",
 ];
 

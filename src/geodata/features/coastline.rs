@@ -27,7 +27,11 @@ pub fn sea(ways: &[Vec<DVec2>], area: &[DVec2]) -> Result<Sea, String> {
         let mut parts = clip_line(&chain, area);
         if closed && parts.len() == 1 && parts[0].len() == chain.len() && parts[0] == chain {
             let ring = chain[1..].to_vec();
-            if signed_area(&ring) > 0.0 { islands.push(ring) } else { basins.push(ring) }
+            if signed_area(&ring) > 0.0 {
+                islands.push(ring)
+            } else {
+                basins.push(ring)
+            }
             continue;
         }
         // A ring that starts inside the area was cut at its seam: join the last piece to the first.
@@ -100,6 +104,23 @@ const END_GAP: f64 = 0.25;
 /// A cut lies on the border up to this distance, metres.
 const ON_BORDER: f64 = 1e-6;
 
+/// A coastline from border to border.
+struct Stretch {
+    /// Border places of its ends.
+    enter: f64,
+    leave: f64,
+    line: Vec<DVec2>,
+    /// An end did not reach the border by itself.
+    loose: bool,
+}
+
+/// Whether lines enter and leave in turn along the border.
+fn alternate(open: &[Stretch]) -> bool {
+    let mut ends: Vec<(f64, bool)> = open.iter().flat_map(|s| [(s.enter, true), (s.leave, false)]).collect();
+    ends.sort_by(|a, b| a.0.total_cmp(&b.0));
+    (0..ends.len()).all(|i| ends[i].1 != ends[(i + 1) % ends.len()].1)
+}
+
 fn close_along_border(pieces: Vec<Vec<DVec2>>, area: &[DVec2]) -> Result<(Vec<Ring>, f64), String> {
     let on_border = |t: f64| {
         let i = (t.floor() as usize) % area.len();
@@ -107,36 +128,46 @@ fn close_along_border(pieces: Vec<Vec<DVec2>>, area: &[DVec2]) -> Result<(Vec<Ri
     };
     let limit = END_GAP * signed_area(area).abs().sqrt();
     let mut bridged = 0.0;
-    let mut open: Vec<(f64, f64, Vec<DVec2>)> = Vec::new();
-    for mut piece in pieces {
-        let (start, end) = (piece[0], piece[piece.len() - 1]);
+    let mut open: Vec<Stretch> = Vec::new();
+    for mut line in pieces {
+        let (start, end) = (line[0], line[line.len() - 1]);
         let (enter, leave) = (border_place(start, area), border_place(end, area));
+        let mut loose = false;
         for (at, place, index) in [(start, enter, 0), (end, leave, usize::MAX)] {
             let gap = at.distance(on_border(place));
             if gap > limit {
                 return Err(format!("the coastline ends inside the area, {gap:.0} m from its border"));
             }
             if gap > ON_BORDER {
-                piece.insert(index.min(piece.len()), on_border(place));
+                line.insert(index.min(line.len()), on_border(place));
                 bridged = gap.max(bridged);
+                loose = true;
             }
         }
-        open.push((enter, leave, piece));
+        open.push(Stretch { enter, leave, line, loose });
+    }
+    while !alternate(&open) {
+        let length = |s: &Stretch| s.line.windows(2).map(|w| w[0].distance(w[1])).sum::<f64>();
+        let loose = (0..open.len()).filter(|&i| open[i].loose);
+        let Some(shortest) = loose.min_by(|&i, &j| length(&open[i]).total_cmp(&length(&open[j]))) else {
+            return Err("land and water do not alternate along the area's border".to_owned());
+        };
+        open.remove(shortest);
     }
     let sides = area.len() as f64;
     let mut rings = Vec::new();
-    while let Some((start, mut at, mut ring)) = open.pop() {
+    while let Some(Stretch { enter: start, leave: mut at, line: mut ring, .. }) = open.pop() {
         loop {
             // Clockwise is backwards along the counter-clockwise area.
             let behind = |t: f64| (at - t).rem_euclid(sides);
-            let next = (0..open.len()).min_by(|&i, &j| behind(open[i].0).total_cmp(&behind(open[j].0)));
-            let next = next.filter(|&i| behind(open[i].0) < behind(start));
-            let to = next.map_or(start, |i| open[i].0);
+            let next = (0..open.len()).min_by(|&i, &j| behind(open[i].enter).total_cmp(&behind(open[j].enter)));
+            let next = next.filter(|&i| behind(open[i].enter) < behind(start));
+            let to = next.map_or(start, |i| open[i].enter);
             ring.extend(corners_between(at, to, area));
             let Some(next) = next else { break };
-            let (_, leave, piece) = open.remove(next);
-            ring.extend(piece);
-            at = leave;
+            let next = open.remove(next);
+            ring.extend(next.line);
+            at = next.leave;
         }
         rings.push(ring);
     }
@@ -172,7 +203,8 @@ mod tests {
     #[test]
     fn water_lies_on_the_right_of_the_coast() {
         // Going east at y = 4: the right hand is south.
-        let south = sea(&[points(&[(-5.0, 4.0), (5.0, 4.0)]), points(&[(5.0, 4.0), (15.0, 4.0)])], &area()).unwrap().polygons;
+        let south =
+            sea(&[points(&[(-5.0, 4.0), (5.0, 4.0)]), points(&[(5.0, 4.0), (15.0, 4.0)])], &area()).unwrap().polygons;
         assert!((total(&south) - 40.0).abs() < 1e-9 && south[0].contains(DVec2::new(5.0, 1.0)));
         let north = sea(&[points(&[(15.0, 4.0), (-5.0, 4.0)])], &area()).unwrap().polygons;
         assert!((total(&north) - 60.0).abs() < 1e-9 && north[0].contains(DVec2::new(5.0, 9.0)));
@@ -203,8 +235,8 @@ mod tests {
             let mut island: Vec<(f64, f64)> = (0..=3).map(|i| ring[(start + i) % 3]).collect();
             island[3] = island[0];
             let water = sea(&[points(&island)], &area()).unwrap().polygons;
-            // The triangle above y = 0: widths 2.4 and 4 over 3 m.
-            assert!((total(&water) - (100.0 - 9.6)).abs() < 1e-9, "{start}: {}", total(&water));
+            // The triangle above y = 0: widths 1.6 and 4 over 3 m.
+            assert!((total(&water) - (100.0 - 8.4)).abs() < 1e-9, "{start}: {}", total(&water));
         }
     }
 

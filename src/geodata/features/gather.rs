@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::classify::{Verdict, classify};
 use super::duplicate::canonical;
-use super::multipolygon::{Group, assemble, from_ring};
+use super::multipolygon::{Combine, Group, assemble, from_ring};
 use super::scene::Scene;
 use crate::geodata::feature::{FeatureClass, FeatureId, ObjectKind, Tags};
 use crate::geodata::osm::{Position, Relation, Shape, ShapeGeometry, TagsView, Way};
@@ -23,7 +23,7 @@ pub struct Candidate {
 }
 
 pub enum Body {
-    Area { groups: Vec<Group>, overlapping: bool },
+    Area { groups: Vec<Group>, combine: Combine },
     Lines(Vec<Vec<Position>>),
 }
 
@@ -95,7 +95,7 @@ impl<'a> Gatherer<'a> {
         match assemble(self.scene.data, relation) {
             Ok(made) => {
                 self.claim(relation, class, object.tags);
-                let body = Body::Area { groups: made.groups, overlapping: made.overlapping };
+                let body = Body::Area { groups: made.groups, combine: made.combine };
                 self.add(object, class, body, made.notes);
             }
             Err(why) => self.skip(object, why, self.points(relation)),
@@ -206,11 +206,11 @@ impl<'a> Gatherer<'a> {
         if distinct < points.len() {
             let made = from_ring(points);
             notes.extend(made.notes);
-            let body = Body::Area { groups: made.groups, overlapping: made.overlapping };
+            let body = Body::Area { groups: made.groups, combine: made.combine };
             return self.add(object, class, body, notes);
         }
         let groups = vec![Group { outer: points, holes: Vec::new() }];
-        self.add(object, class, Body::Area { groups, overlapping: false }, notes);
+        self.add(object, class, Body::Area { groups, combine: Combine::Side }, notes);
     }
 
     fn shape(&mut self, shape: &Shape) {
@@ -236,7 +236,7 @@ impl<'a> Gatherer<'a> {
             Some(Group { outer: outer.clone(), holes: holes.to_vec() })
         };
         let groups = polygons.iter().filter_map(group).collect();
-        self.add(object, class, Body::Area { groups, overlapping: false }, Vec::new());
+        self.add(object, class, Body::Area { groups, combine: Combine::Side }, Vec::new());
     }
 
     fn shape_lines(&mut self, object: Object, lines: &[Vec<Position>], points: Vec<Position>) {
@@ -275,7 +275,11 @@ impl<'a> Gatherer<'a> {
 }
 
 fn too_few(there: usize, total: usize) -> String {
-    if there < total { format!("only {there} of {total} nodes are there") } else { format!("only {there} different nodes") }
+    if there < total {
+        format!("only {there} of {total} nodes are there")
+    } else {
+        format!("only {there} different nodes")
+    }
 }
 
 /// The vertical tags of a part, so that stacked parts are not taken for repeats.

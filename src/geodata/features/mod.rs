@@ -13,12 +13,12 @@ mod coastline;
 mod duplicate;
 mod gather;
 mod multipolygon;
+#[cfg(test)]
+mod multipolygon_tests;
 mod parts;
 pub mod ribbon;
 mod rings;
 mod scene;
-#[cfg(test)]
-mod multipolygon_tests;
 #[cfg(test)]
 mod tests;
 
@@ -50,8 +50,11 @@ pub fn extract(
 
     let mut features = Vec::new();
     let mut footprints = Vec::new();
-    let mut records: Vec<(FeatureId, Outcome)> =
-        found.skipped.into_iter().map(|(kind, id, why)| (FeatureId { kind, id, part: 0 }, Outcome::Skipped(why))).collect();
+    let mut records: Vec<(FeatureId, Outcome)> = found
+        .skipped
+        .into_iter()
+        .map(|(kind, id, why)| (FeatureId { kind, id, part: 0 }, Outcome::Skipped(why)))
+        .collect();
     for Built { id, features: made, outcome } in built {
         if matches!(outcome, Outcome::Skipped(_)) {
             records.push((id, outcome.clone()));
@@ -107,9 +110,8 @@ fn renumber(footprints: &mut [Footprint]) {
 fn sea(scene: &Scene, coast: &[(i64, Vec<Position>)], records: &mut Vec<(FeatureId, Outcome)>) -> Vec<Feature> {
     let Some(first) = coast.iter().map(|(id, _)| *id).min() else { return Vec::new() };
     let id = FeatureId { kind: ObjectKind::Way, id: first, part: 0 };
-    let border: Option<Ring> = scene.area_ring().cloned().or_else(|| {
-        Some(scene.ring_of(&Area::Box(extent(scene.data)?)))
-    });
+    let border: Option<Ring> =
+        scene.area_ring().cloned().or_else(|| Some(scene.ring_of(&Area::Box(extent(scene.data)?))));
     let Some(border) = border else { return Vec::new() };
     let lines: Vec<Vec<DVec2>> = coast.iter().map(|(_, line)| scene.local_line(line)).collect();
     let water = match coastline::sea(&lines, &border) {

@@ -3,7 +3,7 @@
 //! Which ring is a hole follows from geometry (a ring in an odd number of others); roles are hints where rings cross
 //! and where members are missing (<https://wiki.openstreetmap.org/wiki/Relation:multipolygon>).
 
-use super::rings::{Relation as Lie, Role, Strand, join, relate, twice_area};
+use super::rings::{Relation as Lie, Role, Strand, join, meet_off_nodes, relate, twice_area};
 use crate::geodata::feature::ObjectKind;
 use crate::geodata::osm::{OsmData, Position, Relation};
 
@@ -14,12 +14,23 @@ pub struct Group {
     pub holes: Vec<Vec<Position>>,
 }
 
+/// How the groups make the whole.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Combine {
+    /// They lie apart.
+    #[default]
+    Side,
+    /// Outlines cross each other: the groups have to be united.
+    Union,
+    /// Rings cross in common points only: what lies in an odd number of groups.
+    EvenOdd,
+}
+
 /// What a relation's members make.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Assembled {
     pub groups: Vec<Group>,
-    /// Outlines cross, so the groups have to be united.
-    pub overlapping: bool,
+    pub combine: Combine,
     /// What was mended.
     pub notes: Vec<String>,
 }
@@ -104,7 +115,9 @@ fn member_strands(data: &OsmData, relation: &Relation, notes: &mut Vec<String>) 
 
 /// Closes a ring that is all there but for a small gap.
 fn close_gaps(joined: &mut super::rings::Joined, notes: &mut Vec<String>) {
-    let length = |a: Position, b: Position| libm::hypot(f64::from(a.lon) - f64::from(b.lon), f64::from(a.lat) - f64::from(b.lat));
+    let length = |a: Position, b: Position| {
+        libm::hypot(f64::from(a.lon) - f64::from(b.lon), f64::from(a.lat) - f64::from(b.lat))
+    };
     let open = std::mem::take(&mut joined.open);
     for strand in open {
         let run: f64 = strand.points.windows(2).map(|w| length(w[0], w[1])).sum();
@@ -132,6 +145,10 @@ fn drop_repeats(rings: &mut Vec<Strand>, notes: &mut Vec<String>) {
 fn nest(mut rings: Vec<Strand>, members_missing: bool, notes: &mut Vec<String>) -> Assembled {
     // Largest first, so that a ring can only lie in those before it.
     rings.sort_by_key(|ring| std::cmp::Reverse(twice_area(&ring.points).abs()));
+    if cross_at_nodes(&rings) {
+        let groups = rings.into_iter().map(|ring| Group { outer: ring.points, holes: Vec::new() }).collect();
+        return Assembled { groups, combine: Combine::EvenOdd, notes: Vec::new() };
+    }
     let mut assembled = Assembled::default();
     // Per ring: how many rings it lies in, and its group where it is an outline.
     let mut placed: Vec<(usize, Option<usize>)> = Vec::new();
@@ -156,7 +173,9 @@ fn nest(mut rings: Vec<Strand>, members_missing: bool, notes: &mut Vec<String>) 
             _ if cut_hole && members_missing => placed.push((depth, None)),
             _ => {
                 against_roles |= ring.role == Role::Inner;
-                assembled.overlapping |= crossed.is_some();
+                if crossed.is_some() {
+                    assembled.combine = Combine::Union;
+                }
                 placed.push((depth, Some(assembled.groups.len())));
                 assembled.groups.push(Group { outer: ring.points.clone(), holes: Vec::new() });
             }
@@ -165,8 +184,24 @@ fn nest(mut rings: Vec<Strand>, members_missing: bool, notes: &mut Vec<String>) 
     if against_roles {
         notes.push("roles contradict the geometry, which was followed".to_owned());
     }
-    if assembled.overlapping {
+    if assembled.combine == Combine::Union {
         notes.push("outer rings overlap and were united".to_owned());
     }
     assembled
+}
+
+/// Whether rings (larger ones first) cross, but only in points that they share.
+fn cross_at_nodes(rings: &[Strand]) -> bool {
+    let mut found = false;
+    for (i, ring) in rings.iter().enumerate() {
+        for larger in &rings[..i] {
+            if relate(&ring.points, &larger.points) == Lie::Crossing {
+                if meet_off_nodes(&ring.points, &larger.points) {
+                    return false;
+                }
+                found = true;
+            }
+        }
+    }
+    found
 }

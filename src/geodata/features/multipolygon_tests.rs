@@ -5,7 +5,7 @@ use std::io::Read;
 use glam::DVec2;
 use serde_json::Value;
 
-use super::multipolygon::{Assembled, assemble, from_ring};
+use super::multipolygon::{Assembled, Combine, assemble, from_ring};
 use crate::geodata::osm::{OsmBuilder, OsmData, Position, read_stream};
 use crate::geodata::testdata::shared;
 use crate::geometry::boolean::{symmetric_difference, union};
@@ -25,7 +25,10 @@ fn polygons(made: &Assembled) -> Vec<Polygon> {
             std::iter::once(&group.outer).chain(&group.holes).map(|r| r.iter().map(|p| plan(*p)).collect()).collect();
         all.extend(repair(&rings, &Options::default()).polygons);
     }
-    union(&all, &[]).unwrap()
+    match made.combine {
+        Combine::EvenOdd => all.into_iter().fold(Vec::new(), |sum, ring| symmetric_difference(&sum, &[ring]).unwrap()),
+        Combine::Side | Combine::Union => union(&all, &[]).unwrap(),
+    }
 }
 
 fn from_wkt(wkt: &str) -> Vec<Polygon> {
@@ -102,6 +105,10 @@ fn osm_testdata_multipolygons() {
             wrong.push(format!("{}: {}", expected["test_id"], expected["description"]));
         }
     }
-    println!("valid {valid:?}, repairable {repaired:?}, invalid without a known repair {invalid}\n{}", wrong.join("\n"));
-    assert_eq!(valid[0], valid[1], "{wrong:?}");
+    println!(
+        "valid {valid:?}, repairable {repaired:?}, invalid without a known repair {invalid}\n{}",
+        wrong.join("\n")
+    );
+    // 715 has two gaps, which are not closed.
+    assert_eq!((valid, repaired, invalid), ([50, 50], [20, 21], 9), "{wrong:?}");
 }

@@ -62,12 +62,7 @@ pub fn join(strands: Vec<Strand>) -> Joined {
 }
 
 /// An unused line that starts or ends where the chain ends, the same role first.
-fn follower(
-    strands: &[Strand],
-    used: &[bool],
-    ends: &BTreeMap<Position, Vec<usize>>,
-    chain: &Strand,
-) -> Option<usize> {
+fn follower(strands: &[Strand], used: &[bool], ends: &BTreeMap<Position, Vec<usize>>, chain: &Strand) -> Option<usize> {
     let (first, last) = (chain.points.first()?, chain.points.last()?);
     if chain.points.len() > 1 && first == last {
         return None;
@@ -182,6 +177,22 @@ pub fn relate(a: &[Position], b: &[Position]) -> Relation {
         (false, false) if twice_area(a).abs() == twice_area(b).abs() => Relation::Equal,
         (false, false) => Relation::Within,
     }
+}
+
+/// Whether two rings meet anywhere but in points that both have: edges that cross, or a point inside an edge.
+pub fn meet_off_nodes(a: &[Position], b: &[Position]) -> bool {
+    let turn = |p: Half, q: Half, r: Half| ((q.0 - p.0) * (r.1 - p.1) - (q.1 - p.1) * (r.0 - p.0)).signum();
+    let inside = |p: Half, q: Half, r: Half| {
+        let along = (q.0 - p.0) * (r.0 - p.0) + (q.1 - p.1) * (r.1 - p.1);
+        let length = (q.0 - p.0) * (q.0 - p.0) + (q.1 - p.1) * (q.1 - p.1);
+        turn(p, q, r) == 0 && 0 < along && along < length
+    };
+    edges(a).any(|(p, q)| {
+        edges(b).any(|(r, s)| {
+            let crossing = turn(p, q, r) * turn(p, q, s) < 0 && turn(r, s, p) * turn(r, s, q) < 0;
+            crossing || inside(p, q, r) || inside(r, s, p)
+        })
+    })
 }
 
 fn boxes_meet(a: &[Position], b: &[Position]) -> bool {

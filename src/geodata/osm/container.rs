@@ -69,8 +69,8 @@ pub(super) fn open<'a>(input: impl Read + Send + 'a, name: &str) -> Result<Opene
         Box::new(raw)
     };
     let start = inner.fill_buf().map_err(fail)?;
-    let format = recognise(start)
-        .map_err(|found| MapError::UnknownFormat { file: name.to_owned(), found: found.to_owned() })?;
+    let format =
+        recognise(start).map_err(|found| MapError::UnknownFormat { file: name.to_owned(), found: found.to_owned() })?;
     Ok(Opened { format, reader: CountedReader { inner, bytes: 0, line: 1 } })
 }
 

@@ -32,11 +32,7 @@ pub fn read_files(paths: &[PathBuf]) -> Result<OsmData, MapError> {
 }
 
 /// Reads one file from any byte stream; `name` is for errors. Gives the format that was found.
-pub fn read_stream(
-    input: impl std::io::Read + Send,
-    name: &str,
-    builder: &mut OsmBuilder,
-) -> Result<Format, MapError> {
+pub fn read_stream(input: impl std::io::Read + Send, name: &str, builder: &mut OsmBuilder) -> Result<Format, MapError> {
     let Opened { format, reader } = container::open(input, name)?;
     let done = match format {
         Format::Xml => xml::read(reader, builder),

@@ -106,7 +106,8 @@ fn unpack(blob: &[u8]) -> Result<Vec<u8>, BlobFault> {
     if raw_size.is_some_and(|n| n > MAX_BLOB) {
         return bad("a blob that unpacks to more than 32 MiB");
     }
-    let packed = all.iter().find_map(|f| if let (n @ (1 | 3..=7), Value::Bytes(b)) = f { Some((*n, *b)) } else { None });
+    let packed =
+        all.iter().find_map(|f| if let (n @ (1 | 3..=7), Value::Bytes(b)) = f { Some((*n, *b)) } else { None });
     let unpacked = match packed {
         Some((1, bytes)) => bytes.to_vec(),
         Some((3, bytes)) => inflate(bytes)?,
@@ -204,7 +205,8 @@ impl Strings {
     fn of(block: &PrimitiveBlock, builder: &mut OsmBuilder) -> Result<Self, BlobFault> {
         let mut ids = Vec::new();
         for text in block.raw_stringtable() {
-            let text = std::str::from_utf8(text).map_err(|_| BlobFault::Bad("a string that is not UTF-8".to_owned()))?;
+            let text =
+                std::str::from_utf8(text).map_err(|_| BlobFault::Bad("a string that is not UTF-8".to_owned()))?;
             ids.push(builder.string(text));
         }
         Ok(Strings(ids))

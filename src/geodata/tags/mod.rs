@@ -172,7 +172,9 @@ fn building(out: &mut Attributes, defaults: &Defaults) {
     }
     let tagged = out.read(&["height", "building:height"], positive).filter(|h| *h > 0.0);
     let height = tagged.unwrap_or_else(|| assumed_height(out, defaults, &kind, levels, roof, min_height));
-    let height = if height > min_height { height } else {
+    let height = if height > min_height {
+        height
+    } else {
         out.ledger.assume("height: not above minHeight, one storey added");
         min_height + storey
     };

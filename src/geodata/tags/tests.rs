@@ -56,8 +56,15 @@ fn lengths_come_in_many_spellings() {
 
 #[test]
 fn colours_come_as_names_and_hex() {
-    let cases = [("red", "#ff0000"), ("Light_Grey", "#d3d3d3"), ("dark red", "#8b0000"), ("#AbC", "#aabbcc"),
-        ("#A0b1C2", "#a0b1c2"), ("c0ffee", "#c0ffee"), ("brown;red", "#a52a2a")];
+    let cases = [
+        ("red", "#ff0000"),
+        ("Light_Grey", "#d3d3d3"),
+        ("dark red", "#8b0000"),
+        ("#AbC", "#aabbcc"),
+        ("#A0b1C2", "#a0b1c2"),
+        ("c0ffee", "#c0ffee"),
+        ("brown;red", "#a52a2a"),
+    ];
     for (text, hex) in cases {
         assert_eq!(colour(text).as_deref(), Some(hex), "{text}");
     }
@@ -93,7 +100,9 @@ fn a_fully_tagged_building_needs_no_assumption() {
     assert_eq!(text_of(&list, "roofShape"), Some("gabled"));
     assert_eq!(text_of(&list, "roofColor"), Some("#ff0000"));
     assert_eq!(text_of(&list, "wallColor"), None);
-    for (name, value) in [("height", 9.0), ("levels", 2.0), ("roofHeight", 3.0), ("eaveHeight", 6.0), ("roofDirection", 90.0)] {
+    for (name, value) in
+        [("height", 9.0), ("levels", 2.0), ("roofHeight", 3.0), ("eaveHeight", 6.0), ("roofDirection", 90.0)]
+    {
         assert_eq!(number_of(&list, name), Some(value), "{name}");
     }
 }

@@ -69,9 +69,7 @@ pub fn road_width(tags: &Tags) -> RoadWidth {
         usual = ONE_WAY_LANES;
     }
     match lanes(tags) {
-        Some(lanes) => {
-            RoadWidth { metres: lanes * lane + shoulders, assumption: Some("width: from lanes".to_owned()) }
-        }
+        Some(lanes) => RoadWidth { metres: lanes * lane + shoulders, assumption: Some("width: from lanes".to_owned()) },
         None => RoadWidth {
             metres: usual * lane + shoulders,
             assumption: Some(format!("width: default of highway={class}")),
