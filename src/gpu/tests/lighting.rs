@@ -64,6 +64,45 @@ fn slopes_have_no_acne() {
     }
 }
 
+/// Rolling ground of 8 m cells with smooth normals, slopes up to 0.13.
+fn rolling(scene: &mut Scene) {
+    let height = |x: f64, z: f64| 2.0 * libm::sin(x / 20.0) + 1.5 * libm::cos(z / 25.0);
+    let mut mesh = crate::scene::TriMesh::default();
+    for (j, i) in (0..41).flat_map(|j| (0..41).map(move |i| (j, i))) {
+        let (x, z) = (f64::from(i) * 8.0 - 160.0, f64::from(j) * 8.0 - 160.0);
+        mesh.positions.push(DVec3::new(x, height(x, z), z));
+        let slope = |dx: f64, dz: f64| height(x - dx, z - dz) - height(x + dx, z + dz);
+        mesh.normals.push(DVec3::new(slope(0.01, 0.0), 0.02, slope(0.0, 0.01)).normalize().as_vec3());
+        mesh.uvs.push(glam::Vec2::ZERO);
+        if i < 40 && j < 40 {
+            let (a, b) = (j as u32 * 41 + i as u32, (j as u32 + 1) * 41 + i as u32);
+            mesh.triangles.extend([[a, b, b + 1], [a, b + 1, a + 1]]);
+        }
+    }
+    let count = mesh.triangles.len() as u32;
+    mesh.groups.push(crate::scene::Group { material: town::GROUND, first: 0, count });
+    town::plane(scene, (0.0, 0.0), (1.0, 1.0), town::GROUND);
+    scene.objects[0].mesh = mesh;
+}
+
+#[test]
+fn smooth_ground_of_flat_triangles_has_no_acne() {
+    let Some(mut renderer) = super::renderer() else { return };
+    let mut scene = town::empty();
+    rolling(&mut scene);
+    for (elevation, azimuth) in [(60.0, 77.0), (30.0, 200.0), (15.0, 310.0)] {
+        let mut shadowed = demand(&scene, Output::Color, State::Before);
+        shadowed.shadows = Shadows::Soft;
+        let mut open = shadowed.clone();
+        open.shadows = Shadows::Off;
+        let view = view(nadir(0.0, 0.0, 0.5, 500, 500), sun(elevation, azimuth), vec![shadowed, open]);
+        let frame = town::render(&mut renderer, &scene, view);
+        town::keep(&frame, 0, &format!("rolling_{elevation}.png"));
+        let worst = rgb(&frame, 0).iter().zip(rgb(&frame, 1)).map(|(a, b)| a.abs_diff(*b)).max();
+        assert!(worst <= Some(4), "{elevation}°: {worst:?}");
+    }
+}
+
 /// Length in metres of the shadow of a wall of `height`, measured along a row of pixels of 0.25 m away from the sun.
 fn shadow_length(renderer: &mut crate::gpu::Renderer, height: f64, elevation: f64) -> (f64, f64) {
     let mut scene = town::empty();
