@@ -166,13 +166,17 @@ mod tests {
             let frame = fit(&nadir(100.0, 1.0), BOX, direction, 1024).expect("the camera sees the ground");
             assert!((frame.u.cross(frame.v) - direction).length() < 1e-12);
             let mut reached = DVec2::ZERO;
-            for p in [(-100.0, -100.0), (100.0, -100.0), (100.0, 100.0), (-100.0, 100.0)] {
-                let p = DVec3::new(p.0, 0.0, p.1) - frame.anchor;
+            // Corners of the view volume on the ground and at the top of the box.
+            let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
+            for (x, z, y) in
+                corners.iter().flat_map(|&(x, z)| [(100.0 * x, 100.0 * z, 0.0), (80.0 * x, 80.0 * z, 20.0)])
+            {
+                let p = DVec3::new(x, y, z) - frame.anchor;
                 let t = DVec2::new(p.dot(frame.u), p.dot(frame.v)) / frame.texel - frame.corner;
                 assert!(t.cmpge(DVec2::splat(7.0)).all() && t.cmple(DVec2::splat(1017.0)).all(), "{t}");
                 reached = reached.max(t);
             }
-            assert!(reached.min_element() > 500.0, "{reached}");
+            assert!(reached.min_element() > 1000.0, "{reached}");
         }
     }
 
