@@ -1,5 +1,7 @@
 //! The ledger of a run: what became of every feature, by its map identity. Nothing disappears silently.
 
+use std::collections::BTreeMap;
+
 use serde::Serialize;
 
 /// What became of one feature at one stage.
@@ -33,7 +35,7 @@ pub struct Ledger {
     pub skipped: usize,
     pub entries: Vec<Entry>,
     /// How many values were assumed because tags were missing: `height: default 6 m` → count, sorted.
-    pub assumptions: std::collections::BTreeMap<String, usize>,
+    pub assumptions: BTreeMap<String, usize>,
 }
 
 impl Ledger {
@@ -50,6 +52,33 @@ impl Ledger {
         self.entries.push(Entry { feature: feature.to_string(), outcome });
     }
 
+    /// Replaces what became of features by something worse that a later stage found; `Ok` changes nothing.
+    pub fn revise(&mut self, revisions: impl IntoIterator<Item = (String, Outcome)>) {
+        let known: BTreeMap<String, usize> =
+            self.entries.iter().enumerate().map(|(i, e)| (e.feature.clone(), i)).collect();
+        for (feature, outcome) in revisions.into_iter().filter(|(_, outcome)| *outcome != Outcome::Ok) {
+            let entry = known.get(&feature).map(|i| &mut self.entries[*i]);
+            match entry.as_ref().map(|e| &e.outcome) {
+                None | Some(Outcome::Ok) => self.ok = self.ok.saturating_sub(1),
+                Some(Outcome::Repaired(_)) => self.repaired -= 1,
+                Some(Outcome::FellBack(_)) => self.fell_back -= 1,
+                Some(Outcome::Skipped(_)) => self.skipped -= 1,
+            }
+            match entry {
+                Some(entry) => {
+                    entry.outcome = outcome;
+                    match &entry.outcome {
+                        Outcome::Ok => self.ok += 1,
+                        Outcome::Repaired(_) => self.repaired += 1,
+                        Outcome::FellBack(_) => self.fell_back += 1,
+                        Outcome::Skipped(_) => self.skipped += 1,
+                    }
+                }
+                None => self.record(feature, outcome),
+            }
+        }
+    }
+
     pub fn assume(&mut self, what: impl Into<String>) {
         *self.assumptions.entry(what.into()).or_default() += 1;
     }
@@ -64,5 +93,26 @@ impl Ledger {
         for (what, count) in other.assumptions {
             *self.assumptions.entry(what).or_default() += count;
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_feature_counts_once_whatever_later_stages_find() {
+        let mut ledger = Ledger::default();
+        for id in ["way/1", "way/2"] {
+            ledger.record(id, Outcome::Ok);
+        }
+        ledger.record("way/3", Outcome::Repaired("spike".into()));
+        ledger.revise([
+            ("way/1".to_owned(), Outcome::Ok),
+            ("way/2".to_owned(), Outcome::Skipped("rules".into())),
+            ("way/3".to_owned(), Outcome::Skipped("rules".into())),
+        ]);
+        assert_eq!((ledger.ok, ledger.repaired, ledger.skipped), (1, 0, 2));
+        assert_eq!(ledger.entries.len(), 2);
     }
 }

@@ -59,6 +59,7 @@ pub fn build_scene(recipe: &Recipe, index: usize, progress: &dyn Progress) -> Re
     let textures = textures::load(&scene.materials, &recipe.access)?;
     scene.textures = textures.images;
     let Place { frame, terrain, mut ledger, features, .. } = place;
+    ledger.revise(features.iter().map(|f| f.id.to_string()).zip(derived.outcomes));
     ledger.merge(derived.ledger);
     for missing in textures.missing {
         ledger.record(format!("texture {missing}"), Outcome::FellBack("drawn without texture".to_owned()));

@@ -32,6 +32,9 @@ use crate::spec::render_spec::{
 /// What derivation gives.
 pub struct Derivation {
     pub features: Vec<FeatureParts>,
+    /// What became of each feature, in the order of the features.
+    pub outcomes: Vec<Outcome>,
+    /// Assumptions only.
     pub ledger: Ledger,
     pub reports: Reports,
     pub diagnostics: Diagnostics,
@@ -40,8 +43,8 @@ pub struct Derivation {
 }
 
 /// One feature's share of it.
-#[derive(Default)]
 struct Derived {
+    outcome: Outcome,
     states: Vec<StateParts>,
     ledger: Ledger,
     reports: Reports,
@@ -97,12 +100,14 @@ pub fn derive_features(
         .collect();
     let mut out = Derivation {
         features: Vec::new(),
+        outcomes: Vec::new(),
         ledger: Ledger::default(),
         reports: Reports::default(),
         diagnostics: Diagnostics::default(),
         prints: Vec::new(),
     };
     for (feature, derived) in place.features.iter().zip(derived) {
+        out.outcomes.push(derived.outcome);
         out.ledger.merge(derived.ledger);
         out.reports.merge(derived.reports);
         out.diagnostics.extend(derived.diagnostics);
@@ -148,36 +153,40 @@ impl Context<'_> {
         rule: Option<usize>,
         touched: Option<Changed>,
     ) -> Derived {
-        let mut out = Derived::default();
+        let mut out = Derived {
+            outcome: Outcome::Ok,
+            states: Vec::new(),
+            ledger: Ledger::default(),
+            reports: Reports::default(),
+            diagnostics: Diagnostics::default(),
+            prints: Vec::new(),
+        };
         let Some(rule) = rule else {
-            let reason = "no rule of the recipe is for it".to_owned();
-            out.ledger.record(feature.id, Outcome::Skipped(reason));
+            out.outcome = Outcome::Skipped("no rule of the recipe is for it".to_owned());
             return out;
         };
         let lot = match Lot::new(feature, ends, &self.place.terrain) {
             Ok(lot) => lot,
             Err(why) => {
-                out.ledger.record(feature.id, Outcome::Skipped(why));
+                out.outcome = Outcome::Skipped(why);
                 return out;
             }
         };
         let own = &self.scene.rules[rule];
-        let mut outcome = Outcome::Ok;
         match touched {
-            None => self.state(feature, &lot, own, (Presence::Both, 0, 0), &mut out, &mut outcome),
+            None => self.state(feature, &lot, own, (Presence::Both, 0, 0), &mut out),
             Some(touched) => {
                 let change = &self.recipe.spec.changes[touched.change];
                 let key = |presence| (presence, touched.change as u16 + 1, touched.level as u8 + 1);
                 let effect = &change.levels[touched.level].effect;
                 if !matches!(effect, LevelEffect::Built) {
-                    self.state(feature, &lot, own, key(Presence::BeforeOnly), &mut out, &mut outcome);
+                    self.state(feature, &lot, own, key(Presence::BeforeOnly), &mut out);
                 }
                 if let Some(after) = after(feature, own, effect) {
-                    self.state(feature, &lot, after, key(Presence::AfterOnly), &mut out, &mut outcome);
+                    self.state(feature, &lot, after, key(Presence::AfterOnly), &mut out);
                 }
             }
         }
-        out.ledger.record(feature.id, outcome);
         out
     }
 
@@ -189,7 +198,6 @@ impl Context<'_> {
         rule: &RuleAssignment,
         (presence, change, level): (Presence, u16, u8),
         out: &mut Derived,
-        outcome: &mut Outcome,
     ) {
         let counts_once = presence != Presence::AfterOnly;
         let attributes = self.attributes(feature, rule, if counts_once { Some(&mut out.ledger) } else { None });
@@ -203,7 +211,7 @@ impl Context<'_> {
         let tree = derive(self.recipe.programs.get(&rule.file), &start, self.assets, &self.limits);
         let failed = tree.diagnostics.iter().find(|d| d.severity == Severity::Error);
         if let Some(why) = failed.map(|d| format!("its rules failed: {}", d.message)) {
-            *outcome = Outcome::Skipped(why);
+            out.outcome = Outcome::Skipped(why);
             out.diagnostics.extend(tree.diagnostics);
             return;
         }

@@ -203,7 +203,7 @@ impl<'a> ViewScheduler<'a> {
 
     fn draw_set(&self, output: &OutputDemand) -> DrawSet {
         let state = output.selection.state;
-        let shown = |(o, &flag): (&ObjectSummary, &bool)| flag && o.is_present(state) && !o.surfaces.is_empty();
+        let shown = |(o, &flag): (&ObjectSummary, &bool)| flag && !o.surfaces.is_empty();
         let objects: Arc<[bool]> = self.objects.iter().zip(output.selection.objects.iter()).map(shown).collect();
         let triangles = objects.iter().zip(self.objects).filter(|(flag, _)| **flag).map(|(_, o)| o.triangles).sum();
         DrawSet { state, objects, triangles }

@@ -4,7 +4,6 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::demand::State;
 use super::pass::Surface;
 use crate::interpreter::material::Material;
 use crate::scene::{Presence, Scene, SceneObject};
@@ -25,16 +24,6 @@ pub struct ObjectSummary {
     pub triangles: u64,
     /// Kinds of surface it has, sorted, without invisible ones.
     pub surfaces: Vec<Surface>,
-}
-
-impl ObjectSummary {
-    pub fn is_present(&self, state: State) -> bool {
-        match self.presence {
-            Presence::Both => true,
-            Presence::BeforeOnly => state == State::Before,
-            Presence::AfterOnly => state == State::After,
-        }
-    }
 }
 
 /// One summary per object, in the scene's order.

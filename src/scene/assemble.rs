@@ -19,7 +19,7 @@ use crate::interpreter::material::Material;
 pub const TERRAIN_INSTANCE: u32 = 1;
 /// Built-in texture of ground that nothing covers.
 pub const TERRAIN_TEXTURE: &str = "builtin:ground";
-const TERRAIN_TILE_M: f64 = 24.0;
+const TERRAIN_TILE_M: f64 = 64.0;
 
 /// One feature in all its states.
 #[derive(Clone, Debug)]

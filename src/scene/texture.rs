@@ -25,15 +25,15 @@ const TILES: &[(&str, f64, Paint)] = &[
     ("builtin:facade", 3.0, facade),
     ("builtin:asphalt", 8.0, |x, y| grey(0.34 + 0.10 * (noise(x, y, 2, 41) - 0.5) + 0.10 * (fractal(x, y, 42) - 0.5))),
     ("builtin:paving", 4.0, |x, y| grey(0.72 + 0.14 * (cell(x, y, 16, 51) - 0.5) - seam(x, y, 16))),
-    ("builtin:grass", 12.0, |x, y| blend(x, y, 61, [0.24, 0.36, 0.14], [0.42, 0.52, 0.24])),
-    ("builtin:meadow", 20.0, |x, y| blend(x, y, 71, [0.40, 0.47, 0.22], [0.58, 0.60, 0.34])),
+    ("builtin:grass", 32.0, |x, y| blend(x, y, 61, [0.24, 0.36, 0.14], [0.42, 0.52, 0.24])),
+    ("builtin:meadow", 48.0, |x, y| blend(x, y, 71, [0.40, 0.47, 0.22], [0.58, 0.60, 0.34])),
     ("builtin:farmland", 24.0, farmland),
     ("builtin:forest", 24.0, forest),
-    ("builtin:soil", 16.0, |x, y| blend(x, y, 91, [0.42, 0.36, 0.26], [0.60, 0.52, 0.40])),
-    ("builtin:ground", 24.0, |x, y| blend(x, y, 101, [0.44, 0.44, 0.30], [0.62, 0.59, 0.43])),
-    ("builtin:sand", 16.0, |x, y| blend(x, y, 111, [0.76, 0.69, 0.52], [0.88, 0.82, 0.66])),
-    ("builtin:rock", 24.0, |x, y| blend(x, y, 121, [0.42, 0.40, 0.38], [0.66, 0.63, 0.59])),
-    ("builtin:water", 40.0, |x, y| blend(x, y, 131, [0.10, 0.19, 0.24], [0.14, 0.25, 0.31])),
+    ("builtin:soil", 32.0, |x, y| blend(x, y, 91, [0.42, 0.36, 0.26], [0.60, 0.52, 0.40])),
+    ("builtin:ground", 64.0, |x, y| blend(x, y, 101, [0.44, 0.44, 0.30], [0.62, 0.59, 0.43])),
+    ("builtin:sand", 32.0, |x, y| blend(x, y, 111, [0.76, 0.69, 0.52], [0.88, 0.82, 0.66])),
+    ("builtin:rock", 48.0, |x, y| blend(x, y, 121, [0.42, 0.40, 0.38], [0.66, 0.63, 0.59])),
+    ("builtin:water", 48.0, |x, y| blend(x, y, 131, [0.10, 0.19, 0.24], [0.14, 0.25, 0.31])),
     ("builtin:ash", 8.0, ash),
     ("builtin:rubble", 4.0, rubble),
 ];
@@ -93,8 +93,11 @@ fn fractal(x: u32, y: u32, salt: u32) -> f64 {
     [(64, 0.4), (16, 0.3), (4, 0.2), (1, 0.1)].iter().map(|&(step, w)| w * noise(x, y, step, salt + step)).sum()
 }
 
+/// Mottled ground: no single feature is large enough to show how often the tile repeats.
 fn blend(x: u32, y: u32, salt: u32, dark: [f64; 3], light: [f64; 3]) -> [f64; 3] {
-    let t = ((fractal(x, y, salt) - 0.5) * 1.6 + 0.5).clamp(0.0, 1.0);
+    let sizes = [(16, 0.2), (8, 0.2), (4, 0.2), (2, 0.2), (1, 0.2)];
+    let mean: f64 = sizes.iter().map(|&(step, w)| w * noise(x, y, step, salt + step)).sum();
+    let t = ((mean - 0.5) * 1.8 + 0.5).clamp(0.0, 1.0);
     std::array::from_fn(|c| dark[c] + (light[c] - dark[c]) * t)
 }
 

@@ -46,10 +46,6 @@ impl Builder {
         &mut self.runs[at].1
     }
 
-    pub fn is_empty(&self) -> bool {
-        self.runs.iter().all(|(_, run)| run.triangles.is_empty())
-    }
-
     /// One mesh; the groups' materials are numbers into the list beside it.
     pub fn finish(self) -> (TriMesh, Vec<Arc<Material>>) {
         let mut mesh = TriMesh::default();

@@ -160,8 +160,8 @@ impl Town {
     pub fn level(&self, p: DVec2) -> f64 {
         let half = self.half_size();
         let hill = p - DVec2::new(-0.55 * half.x, 0.62 * half.y);
-        let radius = 0.55 * half.min_element();
-        let up = 48.0 * libm::exp(-hill.length_squared() / (radius * radius));
+        let radius = 0.75 * half.min_element();
+        let up = 30.0 * libm::exp(-hill.length_squared() / (radius * radius));
         let roll = 1.5 * libm::sin(p.x / 260.0 + 1.0) * libm::sin(p.y / 310.0);
         let bank = ((p.y - self.river(p.x)).abs() - RIVER_HALF - 4.0) / 30.0;
         let cut = if bank <= 0.0 { 0.0 } else { bank.min(1.0) };

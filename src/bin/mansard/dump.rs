@@ -15,9 +15,16 @@ pub fn run(phase: Phase, file: &Path) -> Result<(), Failure> {
     let access = rule_access(file, &[])?;
     let mut sources = SourceMap::default();
     let (text, diagnostics) = match (phase, is_recipe) {
-        (Phase::Ast, true) => spec::dump_ast(file, &access, &mut sources),
+        (Phase::Ast, true) => {
+            let text = std::fs::read_to_string(file).map_err(|e| Failure::wrong(format!("{}: {e}", file.display())))?;
+            let (text, diagnostics) = spec::dump_ast(&sources.add(file.display().to_string(), text));
+            (Some(text), diagnostics)
+        }
+        (Phase::Program, true) => {
+            let (spec, diagnostics) = spec::load(&file.display().to_string(), &access, &mut sources, &[]);
+            (spec.map(|spec| format!("{spec:#?}\n")), diagnostics)
+        }
         (Phase::Ast, false) => cga::dump_ast(file, &access, &mut sources),
-        (Phase::Program, true) => spec::dump_spec(file, &access, &mut sources),
         (Phase::Program, false) => cga::dump_program(file, &access, &mut sources),
         (Phase::Tree, true) => return Err(Failure::unable("a recipe has no single tree; name a .cga file")),
         (Phase::Tree, false) => return derive::dump(file),

@@ -25,6 +25,7 @@ const WRONG: u8 = 1;
 const UNABLE: u8 = 2;
 
 fn main() -> ExitCode {
+    quieten_device_selection();
     let args = Args::parse();
     let reporter = Reporter::new(args.quiet);
     let result = match args.command {
@@ -41,5 +42,14 @@ fn main() -> ExitCode {
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => failure.report(),
+    }
+}
+
+/// Mesa's device selection layer complains on standard error where there is no desktop; it would only reorder adapters,
+/// and the renderer chooses by what they can do.
+fn quieten_device_selection() {
+    if std::env::var_os("XDG_RUNTIME_DIR").is_none() {
+        // SAFETY: the program has one thread here, before anything could read the environment.
+        unsafe { std::env::set_var("NODEVICE_SELECT", "1") };
     }
 }
