@@ -39,7 +39,7 @@ pub fn offset(polygon: &Polygon, distance: f64) -> Result<Offset, SkeletonError>
         return outwards(polygon, distance);
     }
     let skeleton = run(polygon, None, Some(-distance), &Options::default())?;
-    Ok(Offset { inside: polygons(&skeleton, &skeleton.tops), borders: borders(&skeleton, |e| Some(e)) })
+    Ok(Offset { inside: polygons(&skeleton, &skeleton.tops), borders: borders(&skeleton, Some) })
 }
 
 /// Move every edge inwards by its own distance (missing: 0), as CGA `setback`. A strip attaches to an unmoved neighbour at a

@@ -24,7 +24,7 @@ pub fn ridge(polygon: &Polygon, slope: Slope, along: DVec2) -> Result<Roof, Roof
     let extent =
         |f: fn(f64, f64) -> f64, start: f64| polygon.outer.iter().map(|&p| across.dot(p - origin)).fold(start, f);
     let (low, high) = (extent(f64::min, f64::INFINITY), extent(f64::max, f64::NEG_INFINITY));
-    if !(high > low) {
+    if high.is_nan() || low.is_nan() || high <= low {
         return Err(SkeletonError::TooFewPoints.into());
     }
     let (middle, half) = ((low + high) / 2.0, (high - low) / 2.0);

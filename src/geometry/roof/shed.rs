@@ -47,7 +47,7 @@ fn inclined(polygon: &Polygon, slope: Slope, uphill: DVec2, eave: usize) -> Resu
     let along = |k: usize| up.dot(plan.nodes[k].position - plan.nodes[0].position);
     let heights: Vec<f64> = (0..plan.nodes.len()).map(along).collect();
     let (low, high) = heights.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &x| (l.min(x), h.max(x)));
-    if !(high > low) {
+    if high.is_nan() || low.is_nan() || high <= low {
         return Err(SkeletonError::TooFewPoints.into());
     }
     let tangent = match slope {
