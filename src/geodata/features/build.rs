@@ -8,6 +8,7 @@ use super::ribbon::{Cap, ribbon};
 use super::scene::Scene;
 use crate::geodata::feature::{Feature, FeatureClass, FeatureId, Outline, Tags};
 use crate::geodata::ledger::Outcome;
+use crate::geodata::osm::Position;
 use crate::geodata::tags::{first, length};
 use crate::geometry::boolean::{symmetric_difference, union};
 use crate::geometry::repair::{Note, Options, Verdict, repair};
@@ -25,8 +26,10 @@ pub fn build(scene: &Scene, candidate: &Candidate) -> Built {
     let mut notes = candidate.notes.clone();
     let made = match &candidate.body {
         Body::Area { groups, combine } => polygons(scene, groups, *combine, &mut notes),
-        Body::Lines(lines) if candidate.class == FeatureClass::Water => brook(scene, lines, &candidate.tags),
-        Body::Lines(lines) => Ok(lines_inside(scene, lines).into_iter().map(Outline::Line).collect()),
+        Body::Lines(lines) if candidate.class == FeatureClass::Water => {
+            brook(scene, lines, &candidate.tags, &mut notes)
+        }
+        Body::Lines(lines) => Ok(lines_inside(scene, lines, &mut notes).into_iter().map(Outline::Line).collect()),
     };
     let is_building = matches!(candidate.class, FeatureClass::Building | FeatureClass::BuildingPart);
     let made = made.and_then(|outlines| if is_building { Ok(outlines) } else { clip(scene, outlines) });
@@ -99,12 +102,14 @@ fn describe(note: &Note) -> Option<String> {
 }
 
 /// The stretches of lines inside the window with at least two different points.
-fn lines_inside(scene: &Scene, lines: &[Vec<crate::geodata::osm::Position>]) -> Vec<Vec<DVec2>> {
+fn lines_inside(scene: &Scene, lines: &[Vec<Position>], notes: &mut Vec<String>) -> Vec<Vec<DVec2>> {
     let mut out = Vec::new();
     for line in lines {
         let mut points = scene.local_line(line);
         points.dedup();
-        if points.len() > 1 && points.iter().all(|p| p.is_finite()) {
+        if !points.iter().all(|p| p.is_finite()) {
+            notes.push("a stretch too far away for the projection was left out".to_owned());
+        } else if points.len() > 1 {
             out.extend(scene.clip_line(points));
         }
     }
@@ -123,9 +128,9 @@ fn water_width(tags: &Tags) -> f64 {
     })
 }
 
-fn brook(scene: &Scene, lines: &[Vec<crate::geodata::osm::Position>], tags: &Tags) -> Result<Vec<Outline>, String> {
+fn brook(scene: &Scene, lines: &[Vec<Position>], tags: &Tags, notes: &mut Vec<String>) -> Result<Vec<Outline>, String> {
     let mut out = Vec::new();
-    for line in lines_inside(scene, lines) {
+    for line in lines_inside(scene, lines, notes) {
         let polygons = ribbon(&line, water_width(tags), [Cap::Round; 2]).map_err(|e| e.to_string())?;
         out.extend(polygons.into_iter().map(Outline::Area));
     }

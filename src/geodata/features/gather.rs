@@ -34,6 +34,8 @@ pub struct Gathered {
     /// Coastline ways.
     pub coast: Vec<(i64, Vec<Position>)>,
     pub skipped: Vec<(ObjectKind, i64, String)>,
+    /// Objects passed over of which no node is known, so that they may or may not lie in the area.
+    pub unplaced: usize,
 }
 
 /// Sorts all objects of the map that may lie in the window.
@@ -268,7 +270,9 @@ impl<'a> Gatherer<'a> {
     }
 
     fn skip(&mut self, object: Object, why: String, points: Vec<Position>) {
-        if self.scene.may_meet(points, false) {
+        if points.is_empty() && self.scene.area_ring().is_some() {
+            self.found.unplaced += 1;
+        } else if self.scene.may_meet(points, false) {
             self.found.skipped.push((object.kind, object.id, why));
         }
     }

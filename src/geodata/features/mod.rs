@@ -37,6 +37,9 @@ use build::{Built, build};
 use parts::Footprint;
 use scene::{Scene, centroid};
 
+/// Where an area is asked for, broken objects without any node are counted under this, not listed.
+const UNPLACED: &str = "outside the area: object without known nodes";
+
 /// See [`super::map::extract`].
 pub fn extract(
     data: &OsmData,
@@ -46,6 +49,9 @@ pub fn extract(
 ) -> Vec<Feature> {
     let scene = Scene::new(data, area, project);
     let found = gather::gather(&scene);
+    if found.unplaced > 0 {
+        *ledger.assumptions.entry(UNPLACED.to_owned()).or_default() += found.unplaced;
+    }
     let built: Vec<Built> = found.candidates.par_iter().map(|candidate| build(&scene, candidate)).collect();
 
     let mut features = Vec::new();

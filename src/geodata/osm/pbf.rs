@@ -5,7 +5,7 @@
 
 use std::io::{self, ErrorKind, Read};
 
-use osmpbf::{BlobReader, PrimitiveBlock, RelMemberType};
+use osmpbf::{BlobReader, RelMemberType};
 
 use super::container::CountedReader;
 use super::data::{LonLatBox, OsmBuilder, Position};
@@ -163,7 +163,8 @@ fn header(message: &[u8], builder: &mut OsmBuilder) -> Result<(), BlobFault> {
 
 fn data(message: &[u8], builder: &mut OsmBuilder) -> Result<(), BlobFault> {
     let block = framed("OSMData", message)?.to_primitiveblock()?;
-    let strings = Strings::of(&block, builder)?;
+    let raw = block.raw_stringtable();
+    let mut strings = Strings { raw, ids: vec![None; raw.len()] };
     for group in block.groups() {
         for node in group.nodes() {
             builder.node(node.id(), position(node.id(), node.nano_lon(), node.nano_lat())?);
@@ -175,7 +176,8 @@ fn data(message: &[u8], builder: &mut OsmBuilder) -> Result<(), BlobFault> {
             for (id, place) in way.refs().zip(way.node_locations()) {
                 builder.node(id, position(id, place.nano_lon(), place.nano_lat())?);
             }
-            builder.way(way.id(), way.refs(), strings.tags(way.raw_tags())?);
+            let tags = strings.tags(way.raw_tags(), builder)?;
+            builder.way(way.id(), way.refs(), tags);
         }
         for relation in group.relations() {
             let mut members = Vec::new();
@@ -185,9 +187,10 @@ fn data(message: &[u8], builder: &mut OsmBuilder) -> Result<(), BlobFault> {
                     RelMemberType::Way => ObjectKind::Way,
                     RelMemberType::Relation => ObjectKind::Relation,
                 };
-                members.push((kind, member.member_id, strings.get(member.role_sid)?));
+                members.push((kind, member.member_id, strings.get(member.role_sid, builder)?));
             }
-            builder.relation(relation.id(), members, strings.tags(relation.raw_tags())?);
+            let tags = strings.tags(relation.raw_tags(), builder)?;
+            builder.relation(relation.id(), members, tags);
         }
     }
     Ok(())
@@ -198,27 +201,31 @@ fn position(id: i64, nano_lon: i64, nano_lat: i64) -> Result<Position, BlobFault
         .map_or_else(|| bad(format!("node {id} lies outside the earth's coordinates")), Ok)
 }
 
-/// The builder's ids of a block's strings.
-struct Strings(Vec<u32>);
+/// The builder's ids of those strings of a block that are used (the table also names mappers).
+struct Strings<'a> {
+    raw: &'a [Vec<u8>],
+    ids: Vec<Option<u32>>,
+}
 
-impl Strings {
-    fn of(block: &PrimitiveBlock, builder: &mut OsmBuilder) -> Result<Self, BlobFault> {
-        let mut ids = Vec::new();
-        for text in block.raw_stringtable() {
-            let text =
-                std::str::from_utf8(text).map_err(|_| BlobFault::Bad("a string that is not UTF-8".to_owned()))?;
-            ids.push(builder.string(text));
+impl Strings<'_> {
+    fn get(&mut self, index: impl TryInto<usize>, builder: &mut OsmBuilder) -> Result<u32, BlobFault> {
+        let found = index.try_into().ok().filter(|i: &usize| *i < self.raw.len());
+        let Some(index) = found else { return bad("a string number outside the string table") };
+        if let Some(id) = self.ids[index] {
+            return Ok(id);
         }
-        Ok(Strings(ids))
+        let Ok(text) = std::str::from_utf8(&self.raw[index]) else { return bad("a string that is not UTF-8") };
+        let id = builder.string(text);
+        self.ids[index] = Some(id);
+        Ok(id)
     }
 
-    fn get(&self, index: impl TryInto<usize>) -> Result<u32, BlobFault> {
-        let id = index.try_into().ok().and_then(|i: usize| self.0.get(i).copied());
-        id.map_or_else(|| bad("a string number outside the string table"), Ok)
-    }
-
-    fn tags(&self, raw: impl Iterator<Item = (u32, u32)>) -> Result<Vec<(u32, u32)>, BlobFault> {
-        raw.map(|(key, value)| Ok((self.get(key)?, self.get(value)?))).collect()
+    fn tags(
+        &mut self,
+        raw: impl Iterator<Item = (u32, u32)>,
+        builder: &mut OsmBuilder,
+    ) -> Result<Vec<(u32, u32)>, BlobFault> {
+        raw.map(|(key, value)| Ok((self.get(key, builder)?, self.get(value, builder)?))).collect()
     }
 }
 

@@ -164,7 +164,7 @@ fn a_cut_or_damaged_pbf_is_refused_with_its_blob() {
     }
     let error = read(&bytes[..100_000]).unwrap_err();
     assert!(matches!(error, MapError::Truncated { place: MapPlace::Blob { .. }, .. }), "{error}");
-    for at in (0..2_000).chain((2_000..bytes.len()).step_by(9_973)) {
+    for at in (0..400).chain((400..bytes.len()).step_by(19_973)) {
         let mut damaged = bytes.clone();
         damaged[at] ^= 0x55;
         // Either the damage is found, or it hit a part that carries no data; what counts is that nothing panics.
