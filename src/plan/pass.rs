@@ -40,7 +40,7 @@ pub enum PipelineKey {
     Depth { cutout: bool },
 }
 
-/// Objects that a pass draws: one flag per object, already restricted to those present in `state`.
+/// Objects that a pass draws: one flag per object, the selected ones that have a visible surface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DrawSet {
     pub state: State,

@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::pass::Surface;
 use crate::interpreter::material::Material;
-use crate::scene::{Presence, Scene, SceneObject};
+use crate::scene::{Scene, SceneObject};
 
 /// Opacity (of the material, or material times texel) under which a surface is not there. Half-transparent surfaces
 /// are drawn opaque: labels need a decision, and colour, shadow and label must agree on it.
@@ -17,7 +17,6 @@ pub const OPAQUE_FROM: f64 = 0.5;
 pub struct ObjectSummary {
     /// Least and greatest corner, metres; `None` for an empty mesh.
     pub bounds: Option<(DVec3, DVec3)>,
-    pub presence: Presence,
     pub class: u8,
     pub instance: u32,
     pub level: u8,
@@ -62,7 +61,6 @@ fn summarize_object(object: &SceneObject, surfaces: &[Option<Surface>]) -> Objec
     kinds.dedup();
     ObjectSummary {
         bounds,
-        presence: object.presence,
         class: object.class as u8,
         instance: object.instance,
         level: object.level,

@@ -162,11 +162,20 @@ pub fn sun(elevation_deg: f64, azimuth_deg: f64) -> Sun {
     Sun { direction, disc_deg: 0.533, irradiance: [0.9, 0.87, 0.8] }
 }
 
+fn is_present(object: &SceneObject, state: State) -> bool {
+    match object.presence {
+        Presence::Both => true,
+        Presence::BeforeOnly => state == State::Before,
+        Presence::AfterOnly => state == State::After,
+    }
+}
+
+/// Asks for all objects of a state, and marks those that the other does not have.
 pub fn demand(scene: &Scene, output: Output, state: State) -> OutputDemand {
     OutputDemand {
         pass: format!("{output:?} {state:?}").to_lowercase(),
         output,
-        selection: Selection { state, objects: vec![true; scene.objects.len()].into() },
+        selection: Selection { state, objects: scene.objects.iter().map(|o| is_present(o, state)).collect() },
         marked: Some(scene.objects.iter().map(|o| o.presence != Presence::Both).collect()),
         shadows: Shadows::Soft,
         ambient: Ambient::Sky { zenith: [0.16, 0.19, 0.26], ground: [0.06, 0.06, 0.05] },

@@ -1,29 +1,24 @@
 //! What a plan holds, and above all what it does not hold.
 
 use super::*;
-use crate::plan::demand::{Camera, Quality, Selection, State};
+use crate::plan::demand::{Camera, Projection, Quality, Selection, State};
 use crate::plan::dump;
 use crate::plan::pass::Counts;
-use crate::scene::Presence;
 
-fn object(presence: Presence, instance: u32, surfaces: &[Surface]) -> ObjectSummary {
+fn object(instance: u32, surfaces: &[Surface]) -> ObjectSummary {
     let bounds = Some((DVec3::splat(-10.0), DVec3::splat(10.0)));
-    ObjectSummary { bounds, presence, class: 2, instance, level: 1, triangles: 12, surfaces: surfaces.to_vec() }
+    ObjectSummary { bounds, class: 2, instance, level: 1, triangles: 12, surfaces: surfaces.to_vec() }
 }
 
 fn objects() -> Vec<ObjectSummary> {
-    vec![
-        object(Presence::Both, 1, &[Surface::Plain]),
-        object(Presence::BeforeOnly, 2, &[Surface::Textured]),
-        object(Presence::AfterOnly, 2, &[Surface::Plain]),
-    ]
+    vec![object(1, &[Surface::Plain]), object(2, &[Surface::Textured]), object(2, &[Surface::Plain])]
 }
 
 fn output(output: Output, state: State) -> OutputDemand {
     OutputDemand {
         pass: format!("{output:?} {state:?}").to_lowercase(),
         output,
-        selection: Selection { state, objects: [true; 3].into() },
+        selection: Selection { state, objects: [true, state == State::Before, state == State::After].into() },
         marked: Some([false, true, true].into()),
         shadows: Shadows::Soft,
         ambient: Ambient::Constant([0.2; 3]),
@@ -45,8 +40,6 @@ fn view(outputs: Vec<OutputDemand>) -> ViewDemand {
     let quality = Quality { supersample: 2, shadow_map: 256, shadow_samples: 3 };
     ViewDemand { name: "v".into(), camera, sun: Some(sun), quality, outputs }
 }
-
-use crate::plan::demand::Projection;
 
 fn stems(plan: &RenderPlan) -> Vec<&'static str> {
     plan.views.iter().flat_map(ViewPlan::passes).map(|p| p.kind.stem()).collect()
@@ -112,10 +105,16 @@ fn no_sun_and_no_shadows_make_no_map() {
 }
 
 #[test]
-fn absent_objects_are_not_drawn() {
-    let plan = schedule(&[view(vec![output(Output::Class, State::After)])], &objects());
-    let pass = plan.views[0].passes().next().expect("one pass");
-    assert_eq!(pass.kind.draw().expect("it draws").objects.as_ref(), [true, false, true]);
+fn only_selected_objects_with_a_visible_surface_are_drawn() {
+    let mut objects = objects();
+    let drawn = |objects: &[ObjectSummary]| {
+        let plan = schedule(&[view(vec![output(Output::Class, State::After)])], objects);
+        let pass = plan.views[0].passes().next().expect("one pass");
+        pass.kind.draw().expect("it draws").objects.to_vec()
+    };
+    assert_eq!(drawn(&objects), [true, false, true]);
+    objects[0].surfaces.clear();
+    assert_eq!(drawn(&objects), [false, false, true]);
 }
 
 #[test]
