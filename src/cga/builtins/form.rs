@@ -35,15 +35,15 @@ forms! {
     CompGroups "comp(g)" NotYet
     CompMaterials "comp(m)" NotYet
     CompHoles "comp(h)" NotYet
-    CompConnected "the selector operator `=:`" NotYet
-    CompKeepAxes "comp(..., noAlign)" NotYet
+    CompConnected "the selector operator `=:`" Evaluated
+    CompKeepAxes "comp(..., noAlign)" Evaluated
     CompFunction "the comp function" Evaluated
     SplitUv "split(u | v, ...)" NotYet
     StreetSelector "street selectors" NotYet
     UvSelector "uv selectors" NotYet
-    RoofEdgeSelector "the selectors eave, hip, valley and ridge" NotYet
-    VertexNormalExtrusion "extrude(vertex.normal, ...)" NotYet
+    RoofEdgeSelector "the selectors eave, hip, valley and ridge" Evaluated
+    VertexNormalExtrusion "extrude(vertex.normal, ...)" Evaluated
     DynamicImport "a dynamic import call" NotYet
     StreetWidth "the map attribute streetWidth" NotYet
-    ComputedSet "set(sel(...), ...)" NotYet
+    ComputedSet "set(sel(...), ...)" Evaluated
 }

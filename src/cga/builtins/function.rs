@@ -97,7 +97,7 @@ functions! {
     GeometryHeight "geometry.height" Evaluated ["-> F"]
     GeometryIsClosedSurface "geometry.isClosedSurface" Evaluated ["-> B"]
     GeometryIsConcave "geometry.isConcave" Evaluated ["-> B"]
-    GeometryIsInstanced "geometry.isInstanced" NotYet ["-> B"]
+    GeometryIsInstanced "geometry.isInstanced" Evaluated ["-> B"]
     GeometryIsOriented "geometry.isOriented" Evaluated ["{@orientation} -> B"]
     GeometryIsPlanar "geometry.isPlanar" Evaluated ["F -> B"]
     GeometryIsRectangular "geometry.isRectangular" Evaluated ["F -> B"]

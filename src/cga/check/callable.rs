@@ -13,10 +13,8 @@ use crate::source::Span;
 
 impl Body<'_, '_> {
     pub fn call(&mut self, name: &Text, args: Option<&[Argument]>, span: Span) -> Expr {
-        if args.is_none() && self.in_selector {
-            if let Some(word) = selector_word(&name.text) {
-                return self.selector_word(word, span);
-            }
+        if let (None, true, Some(word)) = (args, self.in_selector, selector_word(&name.text)) {
+            return self.selector_word(word, span);
         }
         if let (None, Some(slot)) = (args, self.slots.iter().rposition(|(n, _)| *n == name.text)) {
             return Expr { kind: ExprKind::Slot(slot as u32), value: self.slots[slot].1, span };

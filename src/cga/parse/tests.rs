@@ -221,15 +221,35 @@ fn a_missing_parenthesis_says_what_was_expected() {
 #[test]
 fn deep_nesting_is_an_error_not_an_overflow() {
     for text in [
-        format!("f = {}1{}", "(".repeat(100_000), ")".repeat(100_000)),
-        format!("f = {}1", "-".repeat(100_000)),
-        format!("f = {}1", "1+".repeat(100_000)),
-        format!("f = a{}", "[0]".repeat(100_000)),
-        format!("A --> {}B{}", "[".repeat(50_000), "]".repeat(50_000)),
-        format!("A --> {}B", "case a : ".repeat(50_000)),
-        format!("A --> {}B", "1 % : ".repeat(50_000)),
-        format!("A --> {}B", "inline ".repeat(50_000)),
-        format!("A --> {}", "split(x){1:".repeat(20_000)),
+        format!("f = {}1{}", "(".repeat(20_000), ")".repeat(20_000)),
+        format!("f = {}1", "-".repeat(20_000)),
+        format!("f = {}1", "1+".repeat(20_000)),
+        format!("f = a{}", "[0]".repeat(20_000)),
+        format!("A --> {}B{}", "[".repeat(10_000), "]".repeat(10_000)),
+        format!("A --> {}B", "case a : ".repeat(10_000)),
+        format!("A --> {}B", "1 % : ".repeat(10_000)),
+        format!("A --> {}B", "inline ".repeat(10_000)),
+        format!("A --> {}", "split(x){1:".repeat(5_000)),
+    ] {
+        assert!(read(&text).1.has_errors(), "{}", &text[..20]);
+    }
+}
+
+#[test]
+fn an_unclosed_chain_takes_no_exponential_time() {
+    for text in [
+        format!("A --> {}B", "case a : ".repeat(40)),
+        format!("A --> {}B", "1 % : ".repeat(40)),
+        format!("f = {}b", "case a : ".repeat(40)),
+        format!("f = {}b", "1 % : ".repeat(40)),
+        format!("A --> {}B", "split(x) { a : ".repeat(40)),
+        format!("A --> {}B", "comp(f) { top : ".repeat(40)),
+        format!("A --> {}B", "split(x) { comp(f) { top : ".repeat(40)),
+        format!("A --> {}B", "union { ".repeat(40)),
+        format!("A --> {}B", "i(b --> ".repeat(40)),
+        format!("f = {}1", "comp(f) { a : ".repeat(40)),
+        format!("f = {}1", "g(".repeat(40)),
+        format!("f = {}1", "[1:".repeat(40)),
     ] {
         assert!(read(&text).1.has_errors(), "{}", &text[..20]);
     }
