@@ -6,7 +6,7 @@ use super::derivation::Derivation;
 use super::environment::Env;
 use super::limits::{Outcome, Stop};
 use super::value::{Array, Value};
-use crate::cga::program::{Expr, ExprKind, Type};
+use crate::cga::program::{Expr, Type};
 use crate::source::Span;
 
 /// `[a, b; c, d]`: elements may be arrays, which are joined, not nested.

@@ -23,9 +23,9 @@ impl Default for Limits {
     fn default() -> Self {
         Limits {
             max_depth: 1000,
-            max_shapes: 1_000_000,
-            max_pending: 200_000,
-            max_vertices: 8_000_000,
+            max_shapes: 300_000,
+            max_pending: 100_000,
+            max_vertices: 4_000_000,
             max_expression_depth: 600,
             max_array: 100_000,
             max_text: 1 << 20,

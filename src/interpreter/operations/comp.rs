@@ -17,7 +17,6 @@ use crate::source::Span;
 /// What selectors of the operation and of the function have in common.
 pub struct Test<'p> {
     pub test: &'p Expr,
-    pub operator: SelectorOperator,
     pub text: &'p Arc<str>,
 }
 
@@ -33,7 +32,7 @@ pub fn pieces<'p>(
     let mut parent = env.shape.clone();
     parent.bake();
     let tests: Vec<Test> =
-        selectors.iter().map(|s| Test { test: &s.test, operator: s.operator, text: &s.text }).collect();
+        selectors.iter().map(|s| Test { test: &s.test, text: &s.text }).collect();
     let components = Components::of(&parent, component, keep_axes, wants_roof_edges(&tests));
     let owners = assign(run, &components, &parent, &tests, env)?;
     let mut out: Pieces<'p> = Vec::new();
@@ -152,7 +151,7 @@ pub fn values<'p>(
     let mut parent = env.shape.clone();
     parent.bake();
     let tests: Vec<Test> =
-        selectors.iter().map(|s| Test { test: &s.test, operator: s.operator, text: &s.text }).collect();
+        selectors.iter().map(|s| Test { test: &s.test, text: &s.text }).collect();
     let components = Components::of(&parent, component, keep_axes, wants_roof_edges(&tests));
     let owners = assign(run, &components, &parent, &tests, env)?;
     let mut values: Vec<Option<Value>> = vec![None; components.len()];

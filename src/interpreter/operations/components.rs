@@ -53,11 +53,6 @@ impl Components {
         &self.parts[i].facet
     }
 
-    /// World ends of an edge component.
-    pub fn ends(&self, i: usize) -> [u32; 2] {
-        self.parts[i].ends
-    }
-
     /// The shape of some components: the frame of the first, fitted to all. `group` is not empty.
     pub fn shape(&self, parent: &Shape, group: &[usize]) -> Shape {
         let mesh = &parent.form.mesh;

@@ -24,7 +24,6 @@ mod roof;
 mod roof_edges;
 mod set;
 mod set_pivot;
-mod setback;
 mod split;
 mod strips;
 mod split_sizes;

@@ -99,7 +99,7 @@ fn selected_edges<'p>(
 ) -> Outcome<(Vec<Option<usize>>, Vec<f64>)> {
     let components = Components::of(parent, Component::FaceEdges, false, false);
     let tests: Vec<Test> =
-        selectors.iter().map(|s| Test { test: &s.test, operator: s.operator, text: &s.text }).collect();
+        selectors.iter().map(|s| Test { test: &s.test, text: &s.text }).collect();
     let mut owners = assign(run, &components, parent, &tests, env)?;
     for (number, selector) in selectors.iter().enumerate() {
         // An index counts round the edges, also backwards.

@@ -158,7 +158,8 @@ impl Layout {
     /// Several groups side by side: each step repeats the group that helps most; ties go to the leftmost.
     fn grow_greedily(&mut self, blocks: &[Block], groups: &[usize], least: f64) {
         const STEPS: usize = 100_000;
-        let mut misfit = self.misfit(self.with_counts(blocks, groups, least));
+        let least_sums = self.with_counts(blocks, groups, least);
+        let mut misfit = self.misfit(least_sums);
         for _ in 0..STEPS {
             let mut best: Option<(usize, f64)> = None;
             for &g in groups {
