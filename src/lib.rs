@@ -16,19 +16,19 @@
 //!
 //! A module uses only what stands above it in this list; `tests/it/tidy.rs` holds us to it.
 
-pub mod output;
-pub mod source;
-pub mod diagnostics;
-pub mod parsing;
 pub mod cga;
-pub mod geometry;
-pub mod geodata;
-pub mod interpreter;
-pub mod town;
-pub mod scene;
-pub mod spec;
-pub mod plan;
-pub mod frame;
-pub mod gpu;
 pub mod dataset;
+pub mod diagnostics;
+pub mod frame;
+pub mod geodata;
+pub mod geometry;
+pub mod gpu;
+pub mod interpreter;
+pub mod output;
+pub mod parsing;
 pub mod pipeline;
+pub mod plan;
+pub mod scene;
+pub mod source;
+pub mod spec;
+pub mod town;

@@ -9,6 +9,6 @@ pub mod map;
 pub mod osm;
 pub mod projection;
 pub mod tags;
+pub mod terrain;
 #[cfg(test)]
 mod testdata;
-pub mod terrain;

@@ -149,9 +149,9 @@ fn elementwise(run: &mut Derivation, operator: B, a: &Value, b: &Value, span: Sp
             let wanted = operator == B::ElementEqual;
             V::Bools(Arc::new(zip(run, a, b, span, Value::to_strings, |x, y| (x == y) == wanted)?))
         }
-        B::ElementLess | B::ElementLessEqual | B::ElementGreater | B::ElementGreaterEqual if strings => V::Bools(
-            Arc::new(zip(run, a, b, span, Value::to_strings, |x, y| holds(operator, by_code_unit(x, y)))?),
-        ),
+        B::ElementLess | B::ElementLessEqual | B::ElementGreater | B::ElementGreaterEqual if strings => {
+            V::Bools(Arc::new(zip(run, a, b, span, Value::to_strings, |x, y| holds(operator, by_code_unit(x, y)))?))
+        }
         B::ElementMultiply | B::ElementDivide | B::ElementRemainder | B::ElementAdd | B::ElementSubtract => {
             let plain = match operator {
                 B::ElementMultiply => |x: f64, y: f64| x * y,
@@ -186,7 +186,11 @@ fn zip<T: Clone, U>(
         (false, true) => y.map(|item| join(&x.items[0], item)),
         _ => {
             if (x.rows, x.columns) != (y.rows, y.columns) {
-                run.error("cga::array-dimensions", span, "the arrays of an element-wise operator differ in size".into());
+                run.error(
+                    "cga::array-dimensions",
+                    span,
+                    "the arrays of an element-wise operator differ in size".into(),
+                );
                 return Err(super::limits::Stop);
             }
             let items = x.items.iter().zip(&y.items).map(|(p, q)| join(p, q)).collect();

@@ -64,12 +64,10 @@ impl<'p> Derivation<'p> {
                 }
                 self.eval(otherwise, env)
             }
-            ExprKind::Stochastic { branches, otherwise, site } => {
-                match choice::choose(self, branches, *site, env)? {
-                    Some(value) => self.eval(value, env),
-                    None => self.eval(otherwise, env),
-                }
-            }
+            ExprKind::Stochastic { branches, otherwise, site } => match choice::choose(self, branches, *site, env)? {
+                Some(value) => self.eval(value, env),
+                None => self.eval(otherwise, env),
+            },
             ExprKind::Index { array, row, column } => array::index(self, array, row, column.as_deref(), env),
             ExprKind::Comp { component, keep_axes, selectors } => {
                 comp::values(self, *component, *keep_axes, selectors, expr, env)
@@ -97,12 +95,7 @@ impl<'p> Derivation<'p> {
     }
 
     /// Evaluates a user function on the current shape.
-    fn call_function(
-        &mut self,
-        id: crate::cga::program::FunctionId,
-        args: &'p [Expr],
-        env: &Env,
-    ) -> Outcome<Value> {
+    fn call_function(&mut self, id: crate::cga::program::FunctionId, args: &'p [Expr], env: &Env) -> Outcome<Value> {
         let function = self.program.function(id);
         let mut slots = Vec::with_capacity(args.len() + function.locals.len());
         for arg in args {

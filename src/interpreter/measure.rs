@@ -83,7 +83,9 @@ pub fn is_concave(shape: &Shape) -> bool {
     let mesh = &form.mesh;
     mesh.faces.iter().any(|face| {
         let normal = mesh.normal(face);
-        !face.holes.is_empty() || corners(mesh, face).any(|[a, b, c]| (b - a).cross(c - b).dot(normal) < -BEND * (b - a).length() * (c - b).length())
+        !face.holes.is_empty()
+            || corners(mesh, face)
+                .any(|[a, b, c]| (b - a).cross(c - b).dot(normal) < -BEND * (b - a).length() * (c - b).length())
     })
 }
 
@@ -119,7 +121,8 @@ pub fn is_planar(shape: &Shape, tolerance: f64) -> bool {
         let normal = mesh.normal(face);
         corners(mesh, face).all(|[a, b, c]| {
             let corner = (b - a).cross(c - b);
-            corner.length() <= BEND * (b - a).length() * (c - b).length() || corner.normalize().dot(normal).abs() >= least
+            corner.length() <= BEND * (b - a).length() * (c - b).length()
+                || corner.normalize().dot(normal).abs() >= least
         })
     };
     !mesh.faces.is_empty() && mesh.faces.iter().all(flat)

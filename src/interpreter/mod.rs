@@ -37,8 +37,8 @@ mod value;
 use std::sync::Arc;
 
 pub use assets::{Assets, FileAssets, NoAssets};
-pub use limits::Limits;
 use derivation::Derivation;
+pub use limits::Limits;
 use seed::Seed;
 use tree::{Scalar, ShapeTree};
 

@@ -99,13 +99,8 @@ fn object_frame(mesh: &Mesh) -> Frame {
 fn initial_shape(mesh: Mesh, run: &Derivation) -> Shape {
     let flat = Scope { frame: run.object, size: DVec3::ZERO };
     let scope = Scope::around(&mesh.positions, run.object.axes).unwrap_or(flat);
-    let lineage = Lineage {
-        comp_selector: "".into(),
-        comp_index: -1.0,
-        comp_total: 0.0,
-        split_index: -1.0,
-        split_total: 0.0,
-    };
+    let lineage =
+        Lineage { comp_selector: "".into(), comp_index: -1.0, comp_total: 0.0, split_index: -1.0, split_total: 0.0 };
     Shape {
         form: Arc::new(Form::from_mesh(mesh)),
         binding: scope,

@@ -201,7 +201,9 @@ impl<'p> Derivation<'p> {
                     None => match Attr::from_name(&name).filter(|info| info.writable) {
                         Some(info) => info.attr,
                         None => {
-                            self.warn("cga::unknown-attribute", span, || format!("there is no attribute `{name}` to set"));
+                            self.warn("cga::unknown-attribute", span, || {
+                                format!("there is no attribute `{name}` to set")
+                            });
                             return Ok(());
                         }
                     },

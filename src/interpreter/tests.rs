@@ -20,8 +20,8 @@ use glam::{DVec2, DVec3};
 use super::seed::Seed;
 use super::tree::{Scalar, ShapeTree};
 use super::{Limits, NoAssets, StartShape, derive};
-use crate::cga::{CompileOptions, compile_text};
 use crate::cga::program::Program;
+use crate::cga::{CompileOptions, compile_text};
 use crate::geometry::{Mesh, PlaneFrame, Polygon};
 use crate::source::SourceMap;
 

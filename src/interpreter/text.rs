@@ -12,7 +12,10 @@ pub fn to_text(tree: &ShapeTree) -> String {
     }
     for r in &tree.reports {
         let [sum, average, min, max] = [r.sum, r.sum / r.count as f64, r.min, r.max].map(format_float);
-        add(&mut out, format_args!("report {}: count {}, sum {sum}, average {average}, min {min}, max {max}", r.name, r.count));
+        add(
+            &mut out,
+            format_args!("report {}: count {}, sum {sum}, average {average}, min {min}, max {max}", r.name, r.count),
+        );
     }
     for line in &tree.prints {
         add(&mut out, format_args!("print {line}"));

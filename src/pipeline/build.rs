@@ -12,8 +12,8 @@ use crate::diagnostics::Diagnostics;
 use crate::geodata::ledger::{Ledger, Outcome};
 use crate::geodata::projection::LocalFrame;
 use crate::geodata::terrain::Terrain;
-use crate::plan::change::draw_changes;
 use crate::geometry::Polygon;
+use crate::plan::change::draw_changes;
 use crate::scene::Scene;
 use crate::scene::assemble::{FeatureParts, TERRAIN_INSTANCE, assemble, ground_layers};
 use crate::scene::ground::build_ground;
@@ -64,7 +64,17 @@ pub fn build_scene(recipe: &Recipe, index: usize, progress: &dyn Progress) -> Re
     for missing in textures.missing {
         ledger.record(format!("texture {missing}"), Outcome::FellBack("drawn without texture".to_owned()));
     }
-    let record = record(&scene, spec.name.clone(), spec.seed, &frame, ground.worst_error_m, changed, derived.reports, ledger, features.len());
+    let record = record(
+        &scene,
+        spec.name.clone(),
+        spec.seed,
+        &frame,
+        ground.worst_error_m,
+        changed,
+        derived.reports,
+        ledger,
+        features.len(),
+    );
     progress.end(&format!("{} triangles", record.triangles));
     Ok(BuiltScene { scene, frame, terrain, record, diagnostics: derived.diagnostics, prints: derived.prints })
 }

@@ -25,9 +25,7 @@ use crate::interpreter::{StartShape, derive};
 use crate::plan::change::Changed;
 use crate::scene::assemble::{FeatureParts, StateParts};
 use crate::scene::{Presence, SceneClass};
-use crate::spec::render_spec::{
-    AttributeValue, DrawnValue, LevelEffect, RuleAssignment, SceneSpec, ValueSpec,
-};
+use crate::spec::render_spec::{AttributeValue, DrawnValue, LevelEffect, RuleAssignment, SceneSpec, ValueSpec};
 
 /// What derivation gives.
 pub struct Derivation {
@@ -117,8 +115,7 @@ pub fn derive_features(
             out.features.push(FeatureParts { feature: feature.id, class, states: derived.states });
         }
     }
-    let triangles: usize =
-        out.features.iter().flat_map(|f| &f.states).map(|s| s.parts.solid.triangles.len()).sum();
+    let triangles: usize = out.features.iter().flat_map(|f| &f.states).map(|s| s.parts.solid.triangles.len()).sum();
     progress.end(&format!("{} features, {triangles} triangles", out.features.len()));
     out.diagnostics = out.diagnostics.sorted();
     out
@@ -146,13 +143,7 @@ fn scene_class(class: FeatureClass) -> SceneClass {
 }
 
 impl Context<'_> {
-    fn feature(
-        &self,
-        feature: &Feature,
-        ends: [Cap; 2],
-        rule: Option<usize>,
-        touched: Option<Changed>,
-    ) -> Derived {
+    fn feature(&self, feature: &Feature, ends: [Cap; 2], rule: Option<usize>, touched: Option<Changed>) -> Derived {
         let mut out = Derived {
             outcome: Outcome::Ok,
             states: Vec::new(),
@@ -182,7 +173,7 @@ impl Context<'_> {
                 if !matches!(effect, LevelEffect::Built) {
                     self.state(feature, &lot, own, key(Presence::BeforeOnly), &mut out);
                 }
-                if let Some(after) = after(feature, own, effect) {
+                if let (Outcome::Ok, Some(after)) = (&out.outcome, after(feature, own, effect)) {
                     self.state(feature, &lot, after, key(Presence::AfterOnly), &mut out);
                 }
             }
@@ -213,6 +204,7 @@ impl Context<'_> {
         if let Some(why) = failed.map(|d| format!("its rules failed: {}", d.message)) {
             out.outcome = Outcome::Skipped(why);
             out.diagnostics.extend(tree.diagnostics);
+            out.states.clear();
             return;
         }
         let parts = lot.parts(&tree.leaves);

@@ -51,7 +51,10 @@ impl PipelineError {
     /// 1 where the input is wrong, 2 where the machine or the surroundings are.
     pub fn exit_code(&self) -> u8 {
         match self {
-            PipelineError::Output(_) | PipelineError::Dataset(_) | PipelineError::Gpu(_) | PipelineError::NoSuchView(_) => 2,
+            PipelineError::Output(_)
+            | PipelineError::Dataset(_)
+            | PipelineError::Gpu(_)
+            | PipelineError::NoSuchView(_) => 2,
             _ => 1,
         }
     }

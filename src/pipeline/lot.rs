@@ -134,9 +134,27 @@ fn priority(feature: &Feature, polygons: &[Polygon]) -> i32 {
 /// Larger roads cover smaller ones where they meet.
 fn rank(class: &str) -> i32 {
     const ORDER: &[&str] = &[
-        "steps", "path", "footway", "cycleway", "bridleway", "pedestrian", "track", "service", "living_street",
-        "residential", "unclassified", "tertiary_link", "tertiary", "secondary_link", "secondary", "primary_link",
-        "primary", "trunk_link", "trunk", "motorway_link", "motorway",
+        "steps",
+        "path",
+        "footway",
+        "cycleway",
+        "bridleway",
+        "pedestrian",
+        "track",
+        "service",
+        "living_street",
+        "residential",
+        "unclassified",
+        "tertiary_link",
+        "tertiary",
+        "secondary_link",
+        "secondary",
+        "primary_link",
+        "primary",
+        "trunk_link",
+        "trunk",
+        "motorway_link",
+        "motorway",
     ];
     ORDER.iter().position(|c| *c == class).unwrap_or(9) as i32
 }

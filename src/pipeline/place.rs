@@ -58,12 +58,7 @@ pub fn place(recipe: &Recipe, scene: &SceneSpec, progress: &dyn Progress) -> Res
 }
 
 /// The ground under the scene; voids are filled, and counted in the ledger.
-fn terrain(
-    files: &[PathBuf],
-    frame: LocalFrame,
-    area: &Ring,
-    ledger: &mut Ledger,
-) -> Result<Terrain, PipelineError> {
+fn terrain(files: &[PathBuf], frame: LocalFrame, area: &Ring, ledger: &mut Ledger) -> Result<Terrain, PipelineError> {
     if files.is_empty() {
         ledger.assume("elevation: none given, flat ground");
         return Ok(Terrain::flat());
@@ -73,7 +68,8 @@ fn terrain(
     let window = Terrain::area(&frame, lo, hi);
     let mut rasters = Vec::new();
     for path in files {
-        let bytes = std::fs::read(path).map_err(|source| AccessError::Io { path: path.display().to_string(), source })?;
+        let bytes =
+            std::fs::read(path).map_err(|source| AccessError::Io { path: path.display().to_string(), source })?;
         rasters.push(elevation::read(&path.display().to_string(), &bytes, Some(window), None)?);
     }
     let terrain = Terrain::from_rasters(frame, lo, hi, rasters, Voids::Fill)?;

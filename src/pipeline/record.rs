@@ -34,7 +34,11 @@ impl Reports {
     }
 
     fn join(&mut self, name: String, record: ReportRecord) {
-        let sum = self.0.entry(name).or_insert(ReportRecord { min: f64::INFINITY, max: f64::NEG_INFINITY, ..ReportRecord::default() });
+        let sum = self.0.entry(name).or_insert(ReportRecord {
+            min: f64::INFINITY,
+            max: f64::NEG_INFINITY,
+            ..ReportRecord::default()
+        });
         sum.count += record.count;
         sum.sum += record.sum;
         sum.min = sum.min.min(record.min);

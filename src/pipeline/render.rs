@@ -206,8 +206,7 @@ fn manifest(
 }
 
 fn check_wanted(recipe: &Recipe, options: &RenderOptions) -> Result<(), PipelineError> {
-    let names: Vec<&str> =
-        recipe.spec.datasets.iter().flat_map(|d| &d.views).map(|v| v.name.as_str()).collect();
+    let names: Vec<&str> = recipe.spec.datasets.iter().flat_map(|d| &d.views).map(|v| v.name.as_str()).collect();
     match options.views.iter().find(|pattern| !names.iter().any(|name| glob(pattern, name))) {
         Some(pattern) => Err(PipelineError::NoSuchView(pattern.clone())),
         None => Ok(()),

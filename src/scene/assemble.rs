@@ -10,6 +10,7 @@ use super::ground::{GroundLayer, GroundMesh};
 use super::model::{Presence, Scene, SceneClass, SceneObject, TriMesh};
 use super::palette::Palette;
 use super::parts::{FlatFace, Parts, PlanUv};
+use super::texture::builtin_size;
 use super::triangles::Builder;
 use crate::geodata::feature::FeatureId;
 use crate::geometry::Polygon;
@@ -19,7 +20,6 @@ use crate::interpreter::material::Material;
 pub const TERRAIN_INSTANCE: u32 = 1;
 /// Built-in texture of ground that nothing covers.
 pub const TERRAIN_TEXTURE: &str = "builtin:ground";
-const TERRAIN_TILE_M: f64 = 64.0;
 
 /// One feature in all its states.
 #[derive(Clone, Debug)]
@@ -141,6 +141,7 @@ fn ground_objects(features: &[FeatureParts], ground: &GroundMesh, palette: &mut 
             colormap: Some(TERRAIN_TEXTURE.into()),
             ..Material::default()
         }),
+        terrain_uv: PlanUv::tiles(builtin_size(TERRAIN_TEXTURE).expect("the terrain's texture is built in")),
         drafts: BTreeMap::new(),
     };
     for &(triangle, payload) in &ground.triangles {
@@ -161,9 +162,8 @@ fn ground_objects(features: &[FeatureParts], ground: &GroundMesh, palette: &mut 
 
 /// The highest class at a point among those that do not belong to the state `hidden`.
 fn below(owners: &[Owner], point: DVec2, hidden: Presence) -> Option<usize> {
-    let covers = |o: &Owner| {
-        o.bounds.0.cmple(point).all() && o.bounds.1.cmpge(point).all() && o.face.polygon.contains(point)
-    };
+    let covers =
+        |o: &Owner| o.bounds.0.cmple(point).all() && o.bounds.1.cmpge(point).all() && o.face.polygon.contains(point);
     (0..owners.len())
         .filter(|&i| owners[i].state.presence != hidden && covers(&owners[i]))
         .max_by_key(|&i| (owners[i].face.priority, i))
@@ -200,6 +200,7 @@ struct Sorter<'a> {
     ground: &'a GroundMesh,
     normals: Vec<Vec3>,
     terrain: Arc<Material>,
+    terrain_uv: PlanUv,
     drafts: BTreeMap<Key, Draft>,
 }
 
@@ -215,7 +216,7 @@ impl Sorter<'_> {
             builder: Builder::default(),
             shared: BTreeMap::new(),
         });
-        let uv = owner.map_or(PlanUv::tiles(TERRAIN_TILE_M), |o| o.face.uv);
+        let uv = owner.map_or(self.terrain_uv, |o| o.face.uv);
         let run = draft.builder.run(owner.map_or(&self.terrain, |o| &o.face.material));
         let local = triangle.map(|i| {
             *draft.shared.entry((number, i)).or_insert_with(|| {

@@ -184,7 +184,12 @@ mod tests {
         let uvs = square.map(|p| DVec2::new(p[0] / 8.0 + 3.0, -p[2] / 4.0)).to_vec();
         let leaves = [leaf(&square, uvs), leaf(&square.map(|p| [p[0], 3.0, p[2]]), Vec::new())];
         assert!(has_flat_face(&leaves, 2.0) && !has_flat_face(&leaves[1..], 2.0));
-        let parts = parts(&leaves, 2.0, &Stand::Draped { priority: 5, surface: Surface::Drape, lift: 0.5 }, &Polygon::default());
+        let parts = parts(
+            &leaves,
+            2.0,
+            &Stand::Draped { priority: 5, surface: Surface::Drape, lift: 0.5 },
+            &Polygon::default(),
+        );
         assert_eq!(parts.flat.len(), 1);
         assert_eq!(parts.flat[0].polygon.outer[2], DVec2::new(4.0, 4.0));
         assert!((parts.flat[0].uv.at(DVec2::new(2.0, 1.0)) - DVec2::new(3.25, 0.25)).length() < 1e-12);
@@ -194,7 +199,10 @@ mod tests {
     #[test]
     fn a_level_feature_gets_a_foundation_that_looks_outwards() {
         let wall = [[0.0, 2.0, 0.0], [4.0, 2.0, 0.0], [4.0, 5.0, 0.0], [0.0, 5.0, 0.0]];
-        let outline = Polygon { outer: [(0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0)].map(DVec2::from).to_vec(), holes: vec![] };
+        let outline = Polygon {
+            outer: [(0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0)].map(DVec2::from).to_vec(),
+            holes: vec![],
+        };
         let parts = parts(&[leaf(&wall, Vec::new())], 2.0, &Stand::Level { skirt: 1.5 }, &outline);
         assert_eq!(parts.solid.triangles.len(), 2 + 8);
         let foundation = parts.solid.groups.iter().find(|g| g.count == 8).expect("four walls");

@@ -8,9 +8,9 @@ use tiff::encoder::colortype::Gray32Float;
 use tiff::encoder::{Compression, DeflateLevel, TiffEncoder};
 use tiff::tags::Tag;
 
+use super::TownError;
 use super::layout::{BLOCK, Town};
 use super::write::{METRES_PER_DEGREE, lon_lat};
-use super::TownError;
 use crate::output;
 
 const CELL: f64 = 15.0;
@@ -41,8 +41,7 @@ fn encode<W: Write + Seek>(town: &Town, out: &mut W) -> tiff::TiffResult<()> {
         .collect();
     let corner = lon_lat(west_north);
     let step = DVec2::splat(cell) / METRES_PER_DEGREE;
-    let mut encoder =
-        TiffEncoder::new(out)?.with_compression(Compression::Deflate(DeflateLevel::Best));
+    let mut encoder = TiffEncoder::new(out)?.with_compression(Compression::Deflate(DeflateLevel::Best));
     let mut image = encoder.new_image::<Gray32Float>(columns, rows)?;
     let directory = image.encoder();
     directory.write_tag(Tag::ModelPixelScaleTag, [step.x, step.y, 0.0].as_slice())?;

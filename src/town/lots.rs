@@ -87,11 +87,8 @@ fn houses(town: &Town, corner: DVec2, seed: Seed) -> Vec<Thing> {
             let width = (BLOCK.x - 28.0) / lots as f64;
             let x = corner.x + 14.0 + width * (lot as f64 + 0.5) + (s.named("shift").unit() - 0.5) * 2.0;
             let front = 20.0 + 4.0 * s.named("front").unit();
-            let (y, turn) = if side == 0 {
-                (corner.y + front, 0.0)
-            } else {
-                (corner.y + BLOCK.y - front, std::f64::consts::PI)
-            };
+            let (y, turn) =
+                if side == 0 { (corner.y + front, 0.0) } else { (corner.y + BLOCK.y - front, std::f64::consts::PI) };
             let turn = turn + (s.named("turn").unit() - 0.5) * 0.08;
             things.extend(house(town, DVec2::new(x, y), turn, width, s));
         }
@@ -157,7 +154,14 @@ fn industry(town: &Town, corner: DVec2, seed: Seed) -> Vec<Thing> {
         let x = corner.x + if i % 2 == 0 { 41.0 } else { 109.0 };
         let y = if i < 2 { corner.y + 22.0 } else { corner.y + BLOCK.y - 22.0 };
         let shape = if s.named("l").unit() < 0.3 {
-            vec![(-w / 2.0, -d / 2.0), (w / 2.0, -d / 2.0), (w / 2.0, 0.0), (0.0, 0.0), (0.0, d / 2.0), (-w / 2.0, d / 2.0)]
+            vec![
+                (-w / 2.0, -d / 2.0),
+                (w / 2.0, -d / 2.0),
+                (w / 2.0, 0.0),
+                (0.0, 0.0),
+                (0.0, d / 2.0),
+                (-w / 2.0, d / 2.0),
+            ]
         } else {
             vec![(-w / 2.0, -d / 2.0), (w / 2.0, -d / 2.0), (w / 2.0, d / 2.0), (-w / 2.0, d / 2.0)]
         };
@@ -172,8 +176,16 @@ fn industry(town: &Town, corner: DVec2, seed: Seed) -> Vec<Thing> {
 }
 
 fn school(town: &Town, corner: DVec2) -> Vec<Thing> {
-    let shape =
-        [(-34.0, -20.0), (34.0, -20.0), (34.0, 18.0), (21.0, 18.0), (21.0, -7.0), (-21.0, -7.0), (-21.0, 18.0), (-34.0, 18.0)];
+    let shape = [
+        (-34.0, -20.0),
+        (34.0, -20.0),
+        (34.0, 18.0),
+        (21.0, 18.0),
+        (21.0, -7.0),
+        (-21.0, -7.0),
+        (-21.0, 18.0),
+        (-34.0, 18.0),
+    ];
     vec![
         Thing::area(rectangle(town, corner, 6.0), vec![("landuse", "grass".into())]),
         Thing::area(

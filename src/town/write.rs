@@ -9,9 +9,9 @@ use std::path::Path;
 
 use glam::DVec2;
 
+use super::TownError;
 use super::layout::{BLOCK, RIVER_HALF, Street, Town, Use};
 use super::lots::{self, Thing};
-use super::TownError;
 use crate::output;
 
 /// Centre of the town, degrees.

@@ -92,8 +92,20 @@ fn code(text: &str) -> impl Iterator<Item = (usize, &str)> {
         .map(|(number, line)| (number + 1, line))
 }
 
+/// Whether a file belongs to a module that is declared under `#[cfg(test)]`.
 fn is_test_file(path: &Path) -> bool {
-    path.file_name().is_some_and(|n| n == "tests.rs") || path.components().any(|c| c.as_os_str() == "tests")
+    let declared = |folder: &Path, name: &str| {
+        let own = folder.with_extension("rs");
+        [folder.join("mod.rs"), own, folder.join("lib.rs")].iter().filter(|p| p.is_file()).any(|p| {
+            let text = read(p);
+            let lines: Vec<&str> = text.lines().map(str::trim).collect();
+            lines.windows(2).any(|w| w[0] == "#[cfg(test)]" && w[1].ends_with(&format!("mod {name};")))
+        })
+    };
+    path.ancestors().take_while(|p| p.starts_with(root().join("src")) && *p != root().join("src")).any(|p| {
+        let name = p.file_stem().expect("a file or folder has a name").to_string_lossy().into_owned();
+        declared(p.parent().expect("below src"), &name)
+    })
 }
 
 #[test]

@@ -58,10 +58,9 @@ impl Reporter {
 
 fn bar(name: &'static str, total: Option<u64>) -> ProgressBar {
     let (bar, template) = match total {
-        Some(total) => (
-            ProgressBar::new(total),
-            "{prefix:>10} [{bar:30}] {human_pos}/{human_len} {per_sec} {eta} left {msg}",
-        ),
+        Some(total) => {
+            (ProgressBar::new(total), "{prefix:>10} [{bar:30}] {human_pos}/{human_len} {per_sec} {eta} left {msg}")
+        }
         None => (ProgressBar::new_spinner(), "{prefix:>10} {spinner} {human_pos} {per_sec} {elapsed} {msg}"),
     };
     let style = ProgressStyle::with_template(template).expect("the template is well formed").progress_chars("=> ");

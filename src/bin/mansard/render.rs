@@ -23,7 +23,8 @@ pub fn run(
     let recipe = load(path, options, &mut sources)?;
     let options = RenderOptions { output: output.to_owned(), views: views.to_vec() };
     let told = |built: &mansard::pipeline::BuiltScene| tell(built, &sources, reporter);
-    let summary = render_dataset(&recipe, &options, &sources, reporter, &told).map_err(|e| report::failure(e, &sources))?;
+    let summary =
+        render_dataset(&recipe, &options, &sources, reporter, &told).map_err(|e| report::failure(e, &sources))?;
     reporter.say(&format!(
         "wrote {} images of {} views and {} to {}",
         summary.images,

@@ -22,8 +22,7 @@ pub fn read(name: &str, bytes: &[u8], folder: &Path, access: &Access) -> Result<
             }
         }
     }
-    let buffers =
-        gltf::import_buffers(&gltf.document, Some(folder), gltf.blob).map_err(|e| wrong(e.to_string()))?;
+    let buffers = gltf::import_buffers(&gltf.document, Some(folder), gltf.blob).map_err(|e| wrong(e.to_string()))?;
     let mut reader = Reader { buffers: &buffers, form: Form::default(), has_uvs: true };
     let document = &gltf.document;
     match document.default_scene().or_else(|| document.scenes().next()) {
@@ -78,9 +77,9 @@ impl Reader<'_> {
         }
         let count = positions.len() as u32;
         // glTF counts v downwards.
-        let uvs: Option<Vec<DVec2>> = reader.read_tex_coords(0).map(|set| {
-            set.into_f32().map(|[u, v]| DVec2::new(f64::from(u), 1.0 - f64::from(v))).collect()
-        });
+        let uvs: Option<Vec<DVec2>> = reader
+            .read_tex_coords(0)
+            .map(|set| set.into_f32().map(|[u, v]| DVec2::new(f64::from(u), 1.0 - f64::from(v))).collect());
         let indices: Vec<u32> = match reader.read_indices() {
             Some(indices) => indices.into_u32().collect(),
             None => (0..count).collect(),

@@ -30,8 +30,7 @@ pub fn read(
     library: &dyn Fn(&str) -> Option<Vec<u8>>,
 ) -> Result<Form, AssetError> {
     let text = String::from_utf8_lossy(bytes);
-    let mut reader =
-        Reader { name, texture: Vec::new(), form: Form::default(), materials: Vec::new(), current: 0 };
+    let mut reader = Reader { name, texture: Vec::new(), form: Form::default(), materials: Vec::new(), current: 0 };
     for (number, line) in text.lines().enumerate() {
         let (keyword, rest) = line.trim().split_once(char::is_whitespace).unwrap_or((line.trim(), ""));
         match keyword {
@@ -160,7 +159,9 @@ mod tests {
 
     #[test]
     fn reads_faces_with_materials_and_negative_indices() {
-        let form = parse("mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\nvt 0 0\nusemtl red\nf 1/1 2/1 3/1\nf -4/-1 -2/1 -1/1\n");
+        let form = parse(
+            "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\nvt 0 0\nusemtl red\nf 1/1 2/1 3/1\nf -4/-1 -2/1 -1/1\n",
+        );
         let form = form.expect("the file is sound");
         assert_eq!(form.mesh.faces[1].outer, [0, 2, 3]);
         assert_eq!(form.face_materials, [1, 1]);
@@ -171,7 +172,9 @@ mod tests {
 
     #[test]
     fn names_the_line_that_is_wrong() {
-        for (text, line) in [("v 0 0\n", 1), ("v 0 0 0\nf 1 2 3\n", 2), ("v 0 0 x\n", 1), ("v 0 0 0\n\nf 1 1\n", 3), ("v 0 0 nan", 1)] {
+        for (text, line) in
+            [("v 0 0\n", 1), ("v 0 0 0\nf 1 2 3\n", 2), ("v 0 0 x\n", 1), ("v 0 0 0\n\nf 1 1\n", 3), ("v 0 0 nan", 1)]
+        {
             match parse(text) {
                 Err(AssetError::Obj { line: found, .. }) => assert_eq!(found, line, "{text}"),
                 other => panic!("{text}: {other:?}"),

@@ -20,7 +20,9 @@ pub fn call(function: F, input: &Input) -> Option<Value> {
         F::Size => Value::Float(array().len() as f64),
         F::NRows => Value::Float(array().dimensions().0 as f64),
         F::NColumns => Value::Float(array().dimensions().1 as f64),
-        F::FindFirst if !matches!(input.value(0), Some(Value::String(_))) => Value::Float(find_first(input).map_or(-1.0, |i| i as f64)),
+        F::FindFirst if !matches!(input.value(0), Some(Value::String(_))) => {
+            Value::Float(find_first(input).map_or(-1.0, |i| i as f64))
+        }
         F::Sum => sum(&array()),
         F::Transpose => transpose(&array()),
         F::SortIndices => sort_indices(&array()),
@@ -104,12 +106,8 @@ fn sort_rows(array: &Value) -> Value {
 pub fn set_elems(run: &mut Derivation, input: &Input) -> Outcome<Value> {
     let last = input.any(input.len().saturating_sub(1));
     match input.any(0) {
-        Value::Floats(a) => {
-            changed(run, input, &a, &last.to_floats().items, 0.0).map(|a| Value::Floats(Arc::new(a)))
-        }
-        Value::Bools(a) => {
-            changed(run, input, &a, &last.to_bools().items, false).map(|a| Value::Bools(Arc::new(a)))
-        }
+        Value::Floats(a) => changed(run, input, &a, &last.to_floats().items, 0.0).map(|a| Value::Floats(Arc::new(a))),
+        Value::Bools(a) => changed(run, input, &a, &last.to_bools().items, false).map(|a| Value::Bools(Arc::new(a))),
         Value::Strings(a) => {
             changed(run, input, &a, &last.to_strings().items, "".into()).map(|a| Value::Strings(Arc::new(a)))
         }
@@ -117,7 +115,13 @@ pub fn set_elems(run: &mut Derivation, input: &Input) -> Outcome<Value> {
     }
 }
 
-fn changed<T: Clone>(run: &mut Derivation, input: &Input, array: &Array<T>, values: &[T], default: T) -> Outcome<Array<T>> {
+fn changed<T: Clone>(
+    run: &mut Derivation,
+    input: &Input,
+    array: &Array<T>,
+    values: &[T],
+    default: T,
+) -> Outcome<Array<T>> {
     let mut out = array.clone();
     let value = |k: usize| values.get(if values.len() == 1 { 0 } else { k }).cloned();
     let valid = |x: f64| (x >= 0.0).then_some(x as usize);

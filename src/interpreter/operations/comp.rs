@@ -31,8 +31,7 @@ pub fn pieces<'p>(
 ) -> Outcome<Pieces<'p>> {
     let mut parent = env.shape.clone();
     parent.bake();
-    let tests: Vec<Test> =
-        selectors.iter().map(|s| Test { test: &s.test, text: &s.text }).collect();
+    let tests: Vec<Test> = selectors.iter().map(|s| Test { test: &s.test, text: &s.text }).collect();
     let components = Components::of(&parent, component, keep_axes, wants_roof_edges(&tests));
     let owners = assign(run, &components, &parent, &tests, env)?;
     let mut out: Pieces<'p> = Vec::new();
@@ -52,7 +51,12 @@ pub fn pieces<'p>(
     Ok(out)
 }
 
-fn grouped(components: &Components, parent: &Shape, members: Vec<usize>, operator: SelectorOperator) -> Vec<Vec<usize>> {
+fn grouped(
+    components: &Components,
+    parent: &Shape,
+    members: Vec<usize>,
+    operator: SelectorOperator,
+) -> Vec<Vec<usize>> {
     match operator {
         SelectorOperator::Each => members.into_iter().map(|m| vec![m]).collect(),
         SelectorOperator::All if members.is_empty() => Vec::new(),
@@ -150,8 +154,7 @@ pub fn values<'p>(
 ) -> Outcome<Value> {
     let mut parent = env.shape.clone();
     parent.bake();
-    let tests: Vec<Test> =
-        selectors.iter().map(|s| Test { test: &s.test, text: &s.text }).collect();
+    let tests: Vec<Test> = selectors.iter().map(|s| Test { test: &s.test, text: &s.text }).collect();
     let components = Components::of(&parent, component, keep_axes, wants_roof_edges(&tests));
     let owners = assign(run, &components, &parent, &tests, env)?;
     let mut values: Vec<Option<Value>> = vec![None; components.len()];

@@ -155,16 +155,16 @@ fn faces(mesh: &Mesh) -> Vec<Part> {
     mesh.faces.iter().enumerate().filter(|(_, face)| !face.outer.is_empty()).map(part).collect()
 }
 
-fn edges(shape: &Shape, roof_edges: bool) -> Vec<Part> {
+fn edges(shape: &Shape, wanted: bool) -> Vec<Part> {
     let mesh = &shape.form.mesh;
     let topology = Topology::of(mesh);
+    let up = if wanted { roof_edges::up(shape) } else { shape.scope.frame.axes.y_axis };
     let kinds: Vec<Option<RoofEdge>> =
-        if roof_edges { roof_edges::classify(shape, &topology) } else { vec![None; topology.edges.len()] };
+        if wanted { roof_edges::classify(shape, &topology) } else { vec![None; topology.edges.len()] };
     let part = |(edge, kind): (&super::super::topology::Edge, &Option<RoofEdge>)| {
         let normal = edge_normal(mesh, edge);
         let facet = Facet { direction: normal, is_border: edge.is_border(), roof_edge: *kind };
         let (from, to) = (mesh.positions[edge.from as usize], mesh.positions[edge.to as usize]);
-        let up = shape.scope.frame.axes.y_axis;
         let downwards = up.dot(to) < up.dot(from);
         let turned = downwards && matches!(kind, Some(RoofEdge::Hip | RoofEdge::Valley | RoofEdge::Ridge));
         let ends = if turned { [edge.to, edge.from] } else { [edge.from, edge.to] };

@@ -103,9 +103,9 @@ fn largest(polygon: &Polygon, directions: &[DVec2]) -> Option<Polygon> {
         let back = |x: f64, y: f64| d * x + across * y;
         let ring = [back(r.low.x, r.low.y), back(r.high.x, r.low.y), back(r.high.x, r.high.y), back(r.low.x, r.high.y)];
         let off = ring.iter().sum::<DVec2>().distance(middle * 4.0);
-        let better = best.as_ref().is_none_or(|(area, o, _)| {
-            r.area() > area * (1.0 + 1e-9) || (r.area() > area * (1.0 - 1e-9) && off < *o)
-        });
+        let better = best
+            .as_ref()
+            .is_none_or(|(area, o, _)| r.area() > area * (1.0 + 1e-9) || (r.area() > area * (1.0 - 1e-9) && off < *o));
         if better {
             best = Some((r.area(), off, ring));
         }
@@ -133,7 +133,9 @@ fn search(polygon: &Polygon, middle: DVec2) -> Option<Rectangle> {
     let mut step = (high.x - low.x) / EVEN_LINES as f64;
     for _ in 0..ROUNDS {
         let before = best;
-        for (a, b) in [(-1.0, 0.0), (1.0, 0.0), (0.0, -1.0), (0.0, 1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, -1.0)] {
+        for (a, b) in
+            [(-1.0, 0.0), (1.0, 0.0), (0.0, -1.0), (0.0, 1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, -1.0)]
+        {
             let mut candidate = Some(best);
             improve(&mut candidate, between(polygon, best.low.x + a * step, best.high.x + b * step), middle);
             best = candidate.unwrap_or(best);

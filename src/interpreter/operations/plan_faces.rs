@@ -30,7 +30,8 @@ impl<'a> PlanFaces<'a> {
 
     pub fn face(&self, number: usize, frame: PlaneFrame) -> SourceFace {
         let face = &self.source.mesh.faces[number];
-        let points: Vec<DVec2> = face.corners().map(|v| frame.to_plan(self.source.mesh.positions[v as usize])).collect();
+        let points: Vec<DVec2> =
+            face.corners().map(|v| frame.to_plan(self.source.mesh.positions[v as usize])).collect();
         let uvs = face.uvs.iter().filter_map(|(set, uv)| Some((*set, affine(&points, uv)?))).collect();
         SourceFace { number, frame, uvs }
     }

@@ -131,12 +131,21 @@ pub fn sphere(run: &mut Derivation, args: &Args, shape: &mut Shape) {
     }
     mesh.positions.push(DVec3::Y);
     let last = mesh.positions.len() as u32 - 1;
-    let at = |k: u32, i: u32| if k == 0 { 0 } else if k == m { last } else { 1 + (k - 1) * n + i % n };
+    let at = |k: u32, i: u32| {
+        if k == 0 {
+            0
+        } else if k == m {
+            last
+        } else {
+            1 + (k - 1) * n + i % n
+        }
+    };
     for k in 0..m {
         for i in 0..n {
             let (v0, v1) = (around(k, m), around(k + 1, m));
             let (u0, u1) = (around(i, n), around(i + 1, n));
-            let mut corners = vec![(at(k, i), u0, v0), (at(k, i + 1), u1, v0), (at(k + 1, i + 1), u1, v1), (at(k + 1, i), u0, v1)];
+            let mut corners =
+                vec![(at(k, i), u0, v0), (at(k, i + 1), u1, v0), (at(k + 1, i + 1), u1, v1), (at(k + 1, i), u0, v1)];
             corners.dedup_by_key(|c| c.0);
             let uv = corners.iter().map(|c| DVec2::new(c.1, c.2)).collect();
             mesh.faces.push(textured(corners.iter().map(|c| c.0).collect(), uv));

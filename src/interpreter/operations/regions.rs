@@ -49,7 +49,11 @@ pub fn pieces<'p>(
         }
         Operation::InnerRectangle => inner_rectangle::regions(run, args, &parent, selectors),
         other => {
-            run.error("cga::not-supported-yet", args.span, format!("`{}` is a known CGA operation, not supported yet", other.name()));
+            run.error(
+                "cga::not-supported-yet",
+                args.span,
+                format!("`{}` is a known CGA operation, not supported yet", other.name()),
+            );
             return Ok(Vec::new());
         }
     };
@@ -98,8 +102,7 @@ fn selected_edges<'p>(
     env: &Env,
 ) -> Outcome<(Vec<Option<usize>>, Vec<f64>)> {
     let components = Components::of(parent, Component::FaceEdges, false, false);
-    let tests: Vec<Test> =
-        selectors.iter().map(|s| Test { test: &s.test, text: &s.text }).collect();
+    let tests: Vec<Test> = selectors.iter().map(|s| Test { test: &s.test, text: &s.text }).collect();
     let mut owners = assign(run, &components, parent, &tests, env)?;
     for (number, selector) in selectors.iter().enumerate() {
         // An index counts round the edges, also backwards.

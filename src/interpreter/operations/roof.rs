@@ -101,7 +101,9 @@ fn append(mesh: &mut Mesh, roof: &Mesh, frame: &PlaneFrame) {
 fn warn(run: &mut Derivation, args: &Args, warnings: &[RoofWarning]) {
     for warning in warnings {
         let (code, text) = match warning {
-            RoofWarning::IndexIgnored => ("cga::roof-index", "the ridge direction can be chosen on convex faces without holes only"),
+            RoofWarning::IndexIgnored => {
+                ("cga::roof-index", "the ridge direction can be chosen on convex faces without holes only")
+            }
             RoofWarning::Overlapping => ("cga::roof-overlap", "the faces of this pyramid overlap"),
             RoofWarning::HolesDropped => ("cga::roof-holes", "a pyramid covers the holes"),
         };

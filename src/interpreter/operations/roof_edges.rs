@@ -13,7 +13,7 @@ const LEVEL: f64 = 1e-6;
 /// One kind per edge of the topology; `None` for border edges that are no eaves.
 pub fn classify(shape: &Shape, topology: &Topology) -> Vec<Option<RoofEdge>> {
     let mesh = &shape.form.mesh;
-    let up = shape.scope.frame.axes.y_axis;
+    let up = up(shape);
     let height = |v: u32| up.dot(mesh.positions[v as usize]);
     let lowest = (0..mesh.positions.len() as u32).map(height).fold(f64::INFINITY, f64::min);
     let tolerance = LEVEL * shape.scope.size.abs().max_element().max(LEVEL);
@@ -38,6 +38,15 @@ pub fn classify(shape: &Shape, topology: &Topology) -> Vec<Option<RoofEdge>> {
         }
     };
     topology.edges.iter().map(kind).collect()
+}
+
+/// The direction the roof rises to: the mean of its faces, which is the normal of the face it stands on; the scope's y
+/// axis if they cancel because the roof is closed.
+pub fn up(shape: &Shape) -> DVec3 {
+    let mesh = &shape.form.mesh;
+    let sum: DVec3 = mesh.faces.iter().map(|face| mesh.area_vector(face)).sum();
+    let whole: f64 = mesh.faces.iter().map(|face| mesh.area_vector(face).length()).sum();
+    if sum.length() > LEVEL * whole { sum.normalize() } else { shape.scope.frame.axes.y_axis }
 }
 
 /// Whether the two faces fold inwards along the edge.

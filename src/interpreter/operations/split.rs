@@ -157,7 +157,8 @@ fn piece(parent: &Shape, axis: usize, slab: &Slab, form: Form, adjust: bool) -> 
     scope.frame.origin += scope.frame.axes.col(axis) * (slab.start * sign);
     scope.size[axis] = (slab.end - slab.start) * sign;
     if adjust {
-        scope = Scope::around(&form.mesh.positions, scope.frame.axes).map_or(scope, |fit| signed(fit, parent.scope.size));
+        scope =
+            Scope::around(&form.mesh.positions, scope.frame.axes).map_or(scope, |fit| signed(fit, parent.scope.size));
     }
     shape.scope = scope;
     shape.binding = scope;

@@ -183,7 +183,7 @@ impl Layout {
             let none = self.all(blocks);
             let copy = sums.plus(none, -1.0).fixed;
             self.fill_room = self.total - none.fixed;
-            let copies = if copy > LEAST { ((self.fill_room - LEAST) / copy).ceil().max(0.0) } else { 0.0 };
+            let copies = if copy > 0.0 { ((self.fill_room - LEAST) / copy).ceil().max(0.0) } else { 0.0 };
             self.counts[group] = copies;
             sums = self.all(blocks);
         }

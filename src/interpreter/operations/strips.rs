@@ -87,7 +87,8 @@ fn with_holes(loops: Vec<Ring>) -> Vec<Polygon> {
     let mut out: Vec<Polygon> = outer.into_iter().map(|outer| Polygon { outer, holes: Vec::new() }).collect();
     for hole in holes {
         let inside = |p: &&mut Polygon| hole.iter().any(|q| crate::geometry::polygon::ring_contains(&p.outer, *q));
-        let smallest = out.iter_mut().filter(inside).min_by(|a, b| signed_area(&a.outer).total_cmp(&signed_area(&b.outer)));
+        let smallest =
+            out.iter_mut().filter(inside).min_by(|a, b| signed_area(&a.outer).total_cmp(&signed_area(&b.outer)));
         if let Some(polygon) = smallest {
             polygon.holes.push(hole);
         }
@@ -105,7 +106,8 @@ mod tests {
 
     #[test]
     fn four_strips_make_a_ring_with_a_hole() {
-        let (o, i) = ([(0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0)], [(1.0, 1.0), (3.0, 1.0), (3.0, 3.0), (1.0, 3.0)]);
+        let (o, i) =
+            ([(0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0)], [(1.0, 1.0), (3.0, 1.0), (3.0, 3.0), (1.0, 3.0)]);
         let strips: Vec<Ring> = (0..4).map(|k| ring(&[o[k], o[(k + 1) % 4], i[(k + 1) % 4], i[k]])).collect();
         let all: Vec<&[DVec2]> = strips.iter().map(Vec::as_slice).collect();
         let whole = joined(&all);

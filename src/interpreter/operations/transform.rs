@@ -65,11 +65,8 @@ pub fn rotate(run: &mut Derivation, args: &Args, shape: &mut Shape) {
     let frame = system(run, args.word(1), shape);
     let turn = rotation(lengths(run, args, 2, DVec3::ONE));
     let absolute = args.word(0) == Some(Word::Abs) && args.word(1) != Some(Word::Scope);
-    shape.scope.frame.axes = if absolute {
-        frame.axes * turn
-    } else {
-        frame.axes * turn * frame.axes.transpose() * shape.scope.frame.axes
-    };
+    shape.scope.frame.axes =
+        if absolute { frame.axes * turn } else { frame.axes * turn * frame.axes.transpose() * shape.scope.frame.axes };
 }
 
 /// `rotateScope(ax, ay, az)`: the scope turns about the pivot axes around geometry that stays.

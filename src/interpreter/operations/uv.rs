@@ -52,8 +52,7 @@ pub fn setup_projection(run: &mut Derivation, args: &Args, shape: &mut Shape) {
         }
     };
     let (u, v): (DVec3, DVec3) = (frame.axes.col(first), frame.axes.col(second));
-    let projection =
-        Projection { origin: frame.origin, axes: [u, v, u.cross(v)], tile, offset, uw_factor: uw };
+    let projection = Projection { origin: frame.origin, axes: [u, v, u.cross(v)], tile, offset, uw_factor: uw };
     let list = Arc::make_mut(&mut shape.projections);
     match list.binary_search_by_key(&set, |(s, _)| *s) {
         Ok(place) => list[place].1 = projection,
@@ -75,7 +74,9 @@ pub fn tile_size(run: &mut Derivation, args: &Args, i: usize, extent: f64) -> f6
 pub fn project(run: &mut Derivation, args: &Args, shape: &mut Shape) {
     let Some(set) = args.uv_set(run, 0) else { return };
     let Some(projection) = shape.projections.iter().find(|(s, _)| *s == set).map(|(_, p)| *p) else {
-        run.warn("cga::no-projection", args.span, || format!("set {set} has no projection: setupProjection comes first"));
+        run.warn("cga::no-projection", args.span, || {
+            format!("set {set} has no projection: setupProjection comes first")
+        });
         return;
     };
     shape.bake();

@@ -61,9 +61,6 @@ pub fn tile(run: &mut Derivation, args: &Args, shape: &mut Shape) {
         if tile == 0.0 || extent == 0.0 { p } else { (p - low) / extent * (metres / tile) }
     };
     edit(shape, set, |p| {
-        DVec2::new(
-            axis(p.x, low.x, extent.x, metres.x, tile.x),
-            axis(p.y, low.y, extent.y, metres.y, tile.y),
-        )
+        DVec2::new(axis(p.x, low.x, extent.x, metres.x, tile.x), axis(p.y, low.y, extent.y, metres.y, tile.y))
     });
 }

@@ -4,7 +4,10 @@ use super::*;
 
 #[test]
 fn the_initial_scope_hangs_back_from_the_first_edge() {
-    let tree = run(r#"Lot --> print(initialShape.origin.px + " " + initialShape.origin.py + " " + initialShape.origin.pz + " " + initialShape.origin.ox + " " + initialShape.origin.oy + " " + initialShape.origin.oz + " " + geometry.area) NIL"#, LOT);
+    let tree = run(
+        r#"Lot --> print(initialShape.origin.px + " " + initialShape.origin.py + " " + initialShape.origin.pz + " " + initialShape.origin.ox + " " + initialShape.origin.oy + " " + initialShape.origin.oz + " " + geometry.area) NIL"#,
+        LOT,
+    );
     near(&numbers(&tree)[0], &[100.0, 0.0, 200.0, 0.0, 0.0, 0.0, 200.0]);
     let s = show("Show");
     near(&s.t, &[0.0, 0.0, -10.0]);
@@ -88,6 +91,9 @@ fn a_hole_gets_walls_and_counts_as_the_notes_say() {
     let ring = |points: &[(f64, f64)]| points.iter().map(|&(x, y)| DVec2::new(x, y)).collect();
     let mut mesh = Mesh::default();
     PlaneFrame::PLAN.push_face(&mut mesh, &Polygon { outer: ring(&outer), holes: vec![ring(&hole)] }, 0.0);
-    let tree = derived(r#"Lot --> extrude(2) print(geometry.nFaces + " " + geometry.nHoles + " " + geometry.nVertices) NIL"#, mesh);
+    let tree = derived(
+        r#"Lot --> extrude(2) print(geometry.nFaces + " " + geometry.nHoles + " " + geometry.nVertices) NIL"#,
+        mesh,
+    );
     near(&numbers(&tree)[0], &[10.0, 2.0, 16.0]);
 }

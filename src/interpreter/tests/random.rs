@@ -21,7 +21,10 @@ fn the_same_seed_gives_the_same_and_another_another() {
 #[test]
 fn neighbours_do_not_matter() {
     let plain = prints("Lot --> split(x) { 10 : NIL | 10 : A }\nA --> print(rand) split(y) { ~1 : NIL }", 1);
-    let busy = prints("f = rand\nLot --> split(x) { 10 : B B t(f, f, 0) B | 10 : A }\nA --> print(rand) NIL\nB --> color(rand, f, f) X.", 1);
+    let busy = prints(
+        "f = rand\nLot --> split(x) { 10 : B B t(f, f, 0) B | 10 : A }\nA --> print(rand) NIL\nB --> color(rand, f, f) X.",
+        1,
+    );
     assert_eq!(plain, busy);
 }
 
@@ -56,7 +59,8 @@ fn shares_come_out_as_written() {
 
 #[test]
 fn setting_the_seed_repeats_the_draws() {
-    let drawn = prints("Lot --> A A B\nA --> set(seedian, 42) print(seedian) print(rand) NIL\nB --> print(rand) NIL", 0);
+    let drawn =
+        prints("Lot --> A A B\nA --> set(seedian, 42) print(seedian) print(rand) NIL\nB --> print(rand) NIL", 0);
     assert_eq!((&drawn[0][..], &drawn[1]), ("42", &drawn[3]));
     assert_ne!(drawn[4], drawn[1]);
 }

@@ -63,14 +63,20 @@ fn a_courtyard() {
 
 #[test]
 fn results_leave_as_json_obj_and_text() {
-    let tree = run("attr a = 1.5\nLot --> report(\"n\", 2) print(\"hi\") setupProjection(0, scope.xz, 1, 1) projectUV(0) A.", SMALL);
+    let tree = run(
+        "attr a = 1.5\nLot --> report(\"n\", 2) print(\"hi\") setupProjection(0, scope.xz, 1, 1) projectUV(0) A.",
+        SMALL,
+    );
     let json = to_json(&tree, &SourceMap::default());
     assert_eq!(json["leaves"][0]["rule"], "A");
     assert_eq!(json["leaves"][0]["attributes"]["a"], 1.5);
     assert_eq!(json["leaves"][0]["faces"][0], serde_json::json!({ "outer": [0, 1, 2, 3], "holes": [] }));
     assert_eq!(json["leaves"][0]["vertices"][1], serde_json::json!([10.0, 0.0, 0.0]));
     assert_eq!(json["leaves"][0]["uvs"]["0"][1], serde_json::json!([10.0, 6.0]));
-    assert_eq!(json["reports"]["n"], serde_json::json!({ "count": 1, "sum": 2.0, "average": 2.0, "min": 2.0, "max": 2.0 }));
+    assert_eq!(
+        json["reports"]["n"],
+        serde_json::json!({ "count": 1, "sum": 2.0, "average": 2.0, "min": 2.0, "max": 2.0 })
+    );
     assert_eq!(json["prints"], serde_json::json!(["hi"]));
     let obj = to_obj(&tree);
     assert!(obj.contains("v 10 0 0\n") && obj.contains("f 1/1 2/2 3/3 4/4\n"), "{obj}");

@@ -4,11 +4,25 @@ use super::*;
 
 #[test]
 fn every_side_of_a_block_once() {
-    let tree = run("Lot --> extrude(8) comp(f) { top : T. | bottom : B. | front : F. | back : K. | left : L. | right : R. }", LOT);
+    let tree = run(
+        "Lot --> extrude(8) comp(f) { top : T. | bottom : B. | front : F. | back : K. | left : L. | right : R. }",
+        LOT,
+    );
     for rule in ["T", "B", "F", "K", "L", "R"] {
         assert_eq!(count(&tree, rule), 1, "{rule}");
     }
-    for (selector, n) in [("side", 4), ("vertical", 4), ("horizontal", 2), ("all", 6), ("object.side", 4), ("world.up", 1), ("border", 0), ("inside", 6), ("7", 0), ("1", 1)] {
+    for (selector, n) in [
+        ("side", 4),
+        ("vertical", 4),
+        ("horizontal", 2),
+        ("all", 6),
+        ("object.side", 4),
+        ("world.up", 1),
+        ("border", 0),
+        ("inside", 6),
+        ("7", 0),
+        ("1", 1),
+    ] {
         let tree = run(&format!("Lot --> extrude(8) comp(f) {{ {selector} : A. }}"), LOT);
         assert_eq!(count(&tree, "A"), n, "{selector}");
     }
@@ -24,7 +38,10 @@ A --> print(comp.sel + " " + comp.index + " " + comp.total + " " + geometry.nFac
 
 #[test]
 fn conditions_see_the_component() {
-    let tree = run("Lot --> extrude(8) comp(f) { geometry.area > 100 && !top && !bottom : Wide. | comp.index == 1 : Second. }", LOT);
+    let tree = run(
+        "Lot --> extrude(8) comp(f) { geometry.area > 100 && !top && !bottom : Wide. | comp.index == 1 : Second. }",
+        LOT,
+    );
     assert_eq!((count(&tree, "Wide"), count(&tree, "Second")), (2, 1));
     assert_eq!(areas(&tree, "Second"), [200.0]);
 }

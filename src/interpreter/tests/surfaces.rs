@@ -13,7 +13,8 @@ fn ranges(leaf: &Leaf) -> [f64; 4] {
 
 #[track_caller]
 fn projected(setup: &str, expected: [f64; 4]) {
-    let rules = format!("Lot --> extrude(3) comp(f) {{ front : setupProjection(0, scope.xy, {setup}) projectUV(0) A. }}");
+    let rules =
+        format!("Lot --> extrude(3) comp(f) {{ front : setupProjection(0, scope.xy, {setup}) projectUV(0) A. }}");
     let tree = run(&rules, &[(0.0, 0.0), (4.0, 0.0), (4.0, -5.0), (0.0, -5.0)]);
     near(&ranges(&tree.leaves[0]), &expected);
 }
@@ -29,7 +30,8 @@ fn projections() {
 
 #[test]
 fn a_projection_stays_where_it_was_set_up() {
-    let rules = "Lot --> extrude(3) comp(f) { front : setupProjection(0, scope.xy, 2, 1.5) split(x) { ~1 : A | ~1 : A } }
+    let rules =
+        "Lot --> extrude(3) comp(f) { front : setupProjection(0, scope.xy, 2, 1.5) split(x) { ~1 : A | ~1 : A } }
 A --> projectUV(0) B.";
     let tree = run(rules, &[(0.0, 0.0), (4.0, 0.0), (4.0, -5.0), (0.0, -5.0)]);
     near(&ranges(&tree.leaves[0]), &[0.0, 1.0, 0.0, 2.0]);
@@ -48,7 +50,9 @@ fn editing_coordinates() {
         ("copyUV(0, 1) deleteUV(0) copyUV(1, 0)", [0.0, 4.0, 0.0, 3.0]),
     ];
     for (operation, expected) in cases {
-        let rules = format!("Lot --> extrude(3) comp(f) {{ front : setupProjection(0, scope.xy, 1, 1) projectUV(0) {operation} A. }}");
+        let rules = format!(
+            "Lot --> extrude(3) comp(f) {{ front : setupProjection(0, scope.xy, 1, 1) projectUV(0) {operation} A. }}"
+        );
         let tree = run(&rules, &[(0.0, 0.0), (4.0, 0.0), (4.0, -5.0), (0.0, -5.0)]);
         near(&ranges(&tree.leaves[0]), &expected);
     }

@@ -1,3 +1,5 @@
+//! Sizes against the reference's and the compatibility notes' tables. In: blocks of sizes. Out: slabs.
+
 use super::*;
 use proptest::prelude::*;
 
@@ -98,11 +100,7 @@ fn too_many_pieces_are_refused_before_they_are_made() {
 }
 
 fn blocks() -> impl Strategy<Value = Vec<Block>> {
-    let piece = prop_oneof![
-        (-1.0..6.0f64).prop_map(abs),
-        (0.0..0.7f64).prop_map(rel),
-        (0.1..4.0f64).prop_map(float)
-    ];
+    let piece = prop_oneof![(-1.0..6.0f64).prop_map(abs), (0.0..0.7f64).prop_map(rel), (0.1..4.0f64).prop_map(float)];
     let block = prop_oneof![4 => piece.clone(), 1 => prop::collection::vec(piece, 1..4).prop_map(times)];
     prop::collection::vec(block, 1..5)
 }
