@@ -176,6 +176,14 @@ impl<'p> Derivation<'p> {
         self.limits.max_shapes.saturating_sub(self.shapes)
     }
 
+    /// Refuses to make vertices that would pass the limit.
+    pub fn allow_vertices(&mut self, more: usize, span: Span) -> Outcome<()> {
+        let before = self.vertices;
+        let allowed = self.count_vertices(more, span);
+        self.vertices = before;
+        allowed
+    }
+
     /// Counts vertices just made.
     pub fn count_vertices(&mut self, more: usize, span: Span) -> Outcome<()> {
         self.vertices = self.vertices.saturating_add(more);

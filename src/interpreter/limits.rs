@@ -25,7 +25,7 @@ impl Default for Limits {
             max_depth: 1000,
             max_shapes: 300_000,
             max_pending: 100_000,
-            max_vertices: 4_000_000,
+            max_vertices: 2_000_000,
             max_expression_depth: 600,
             max_array: 100_000,
             max_text: 1 << 20,

@@ -4,6 +4,7 @@ use glam::{DMat3, DVec3};
 
 use super::super::derivation::Derivation;
 use super::super::form::Form;
+use super::super::limits::Outcome;
 use super::super::placement::perpendicular;
 use super::super::shape::Shape;
 use super::super::topology::vertex_normals;
@@ -12,7 +13,7 @@ use crate::cga::builtins::Word;
 use crate::geometry::extrude::{Direction, LEAST_DISTANCE, extrude};
 use crate::geometry::{Face, Mesh};
 
-pub fn apply(run: &mut Derivation, args: &Args, shape: &mut Shape) {
+pub fn apply(run: &mut Derivation, args: &Args, shape: &mut Shape) -> Outcome<()> {
     let word = args.word(0);
     let distance = args.float_or(run, usize::from(word.is_some()), 0.0);
     shape.bake();
@@ -30,13 +31,16 @@ pub fn apply(run: &mut Derivation, args: &Args, shape: &mut Shape) {
     };
     if shape.form.mesh.faces.is_empty() {
         extrude_edges(shape, direction, distance);
-        return;
+        return Ok(());
     }
     let up = up(&shape.form.mesh, direction);
-    let Some(extruded) = extrude(&shape.form.mesh, direction, distance) else { return };
+    let corners: usize = shape.form.mesh.faces.iter().map(|face| face.corners().count()).sum();
+    run.allow_vertices(2 * corners, args.span)?;
+    let Some(extruded) = extrude(&shape.form.mesh, direction, distance) else { return Ok(()) };
     let form = shape.form.derived(extruded.mesh, extruded.origins.iter().map(|origin| Some(origin.face)));
     let backwards = distance < 0.0 && !matches!(direction, Direction::AlongToFlatTop(_));
     replace_upright(shape, form, up, backwards);
+    Ok(())
 }
 
 /// The upright axis of the new scope: the direction of the first face or vertex (reference 4.0.3).

@@ -71,7 +71,7 @@ pub fn apply(
         O::ReverseNormals => reverse_normals::apply(shape),
         O::AlignScopeToAxes => align_to_axes::apply(run, &args, shape),
         O::AlignScopeToGeometry => align_to_geometry::apply(run, &args, shape),
-        O::Extrude => extrude::apply(run, &args, shape),
+        O::Extrude => extrude::apply(run, &args, shape)?,
         O::Offset => offset::apply(run, &args, shape),
         O::RoofGable => roof::gable(run, &args, shape),
         O::RoofHip => roof::hip(run, &args, shape),
