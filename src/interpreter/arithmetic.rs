@@ -30,10 +30,10 @@ pub fn unary(run: &mut Derivation, operator: U, value: Value, span: Span) -> Val
 
 /// All but `&&` and `||` between scalars, which the evaluator cuts short.
 pub fn binary(run: &mut Derivation, operator: B, a: Value, b: Value, span: Span) -> Outcome<Value> {
-    if let (Value::Float(x), Value::Float(y)) = (&a, &b) {
-        if let Some(value) = floats(operator, *x, *y) {
-            return Ok(value);
-        }
+    if let (Value::Float(x), Value::Float(y)) = (&a, &b)
+        && let Some(value) = floats(operator, *x, *y)
+    {
+        return Ok(value);
     }
     match operator {
         B::Equal => Ok(Value::Bool(equal(&a, &b))),

@@ -74,10 +74,10 @@ struct MaterialTable {
 
 impl MaterialTable {
     fn intern(&mut self, appearance: &Arc<Appearance>) -> Arc<Material> {
-        if let Some((last, material)) = &self.last {
-            if Arc::ptr_eq(last, appearance) {
-                return material.clone();
-            }
+        if let Some((last, material)) = &self.last
+            && Arc::ptr_eq(last, appearance)
+        {
+            return material.clone();
         }
         let material = appearance.material();
         let [r, g, b] = material.color.map(f64::to_bits);

@@ -112,7 +112,10 @@ pub fn agrees(word: Word, direction: DVec3, scope: &Scope, object: &Frame) -> Op
     Some(match question {
         Question::Sector(family, wanted) => sector(seen(family)) == Some(wanted),
         Question::Sideways(family) => !matches!(sector(seen(family)), Some(Sector::Top | Sector::Bottom)),
-        Question::Elevation(from, to) => (|e: f64| e > from && e <= to)(elevation(in_scope())),
+        Question::Elevation(from, to) => {
+            let e = elevation(in_scope());
+            e > from && e <= to
+        }
         Question::Horizontal => steep(elevation(in_scope())),
         Question::NotHorizontal => !steep(elevation(in_scope())),
     })

@@ -154,10 +154,10 @@ fn host_value(run: &mut Derivation, attribute: &Attribute) -> Option<Value> {
     let (_, scalar) = start.attributes.iter().find(|(name, _)| *name == attribute.name)?;
     let given = Value::from(scalar);
     let mut value = attribute.kind.map_or(given.clone(), |kind| given.converted(kind));
-    if let (Value::Float(x), Some(range)) = (&mut value, &attribute.annotations.range) {
-        if range.restricted {
-            *x = x.max(range.min.unwrap_or(*x)).min(range.max.unwrap_or(*x));
-        }
+    if let (Value::Float(x), Some(range)) = (&mut value, &attribute.annotations.range)
+        && range.restricted
+    {
+        *x = x.max(range.min.unwrap_or(*x)).min(range.max.unwrap_or(*x));
     }
     let choices = attribute.annotations.choices.as_ref().filter(|c| c.restricted);
     let allowed = choices.is_none_or(|choices| choices.values.iter().any(|choice| constant(choice) == value));

@@ -103,7 +103,7 @@ fn blend(x: u32, y: u32, salt: u32, dark: [f64; 3], light: [f64; 3]) -> [f64; 3]
 
 /// Darkening along the joints of squares of `step` pixels.
 fn seam(x: u32, y: u32, step: u32) -> f64 {
-    if x % step == 0 || y % step == 0 { 0.18 } else { 0.0 }
+    if x.is_multiple_of(step) || y.is_multiple_of(step) { 0.18 } else { 0.0 }
 }
 
 fn roof_tiles(x: u32, y: u32) -> [f64; 3] {
@@ -115,8 +115,8 @@ fn roof_tiles(x: u32, y: u32) -> [f64; 3] {
 
 fn shingles(x: u32, y: u32) -> [f64; 3] {
     let row = y / 8;
-    let shifted = (x + if row % 2 == 0 { 0 } else { 8 }) % SIZE;
-    let joint = if y % 8 == 0 || shifted % 16 == 0 { 0.16 } else { 0.0 };
+    let shifted = (x + if row.is_multiple_of(2) { 0 } else { 8 }) % SIZE;
+    let joint = if y.is_multiple_of(8) || shifted.is_multiple_of(16) { 0.16 } else { 0.0 };
     grey(0.82 - joint + 0.20 * (hash(shifted / 16, row, 211) - 0.5))
 }
 
@@ -131,8 +131,8 @@ fn sheet_metal(x: u32, y: u32) -> [f64; 3] {
 
 fn brick(x: u32, y: u32) -> [f64; 3] {
     let row = y / 8;
-    let shifted = (x + if row % 2 == 0 { 0 } else { 12 }) % SIZE;
-    if y % 8 == 0 || shifted % 32 == 0 {
+    let shifted = (x + if row.is_multiple_of(2) { 0 } else { 12 }) % SIZE;
+    if y.is_multiple_of(8) || shifted.is_multiple_of(32) {
         return grey(0.88);
     }
     let shade = 0.78 + 0.24 * (hash(shifted / 32, row, 231) - 0.5);
@@ -145,7 +145,7 @@ fn facade(x: u32, y: u32) -> [f64; 3] {
     if !(inside_x && inside_y) {
         return grey(0.90 + 0.06 * (fractal(x, y, 241) - 0.5));
     }
-    let frame = x < 44 || x >= 84 || y < 38 || y >= 96 || (62..66).contains(&x);
+    let frame = !(44..84).contains(&x) || !(38..96).contains(&y) || (62..66).contains(&x);
     if frame { grey(0.97) } else { [0.24, 0.30, 0.36] }
 }
 

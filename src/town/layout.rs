@@ -126,7 +126,7 @@ impl Town {
     pub fn row_street(&self, row: u32) -> Street {
         if row == self.rows / 2 + 1 {
             Street::Secondary
-        } else if row % 4 == 0 {
+        } else if row.is_multiple_of(4) {
             Street::Tertiary
         } else {
             Street::Residential

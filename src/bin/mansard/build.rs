@@ -56,7 +56,7 @@ pub fn run(
     for index in 0..recipe.spec.scenes.len() {
         let built = build_scene(&recipe, index, reporter).map_err(|e| report::failure(e, &sources))?;
         let file = if several { scene_file(output, &built.record.name) } else { output.to_owned() };
-        let bytes = to_glb(&built.scene, &recipe.attribution()).map_err(|e| Failure::unable(e.to_string()))?;
+        let bytes = to_glb(&built.scene, recipe.attribution()).map_err(|e| Failure::unable(e.to_string()))?;
         write_bytes(&file, &bytes).map_err(|e| Failure::unable(e.to_string()))?;
         tell(&built, &sources, reporter);
         reporter.say(&format!("wrote {} ({} bytes)", file.display(), bytes.len()));

@@ -61,7 +61,7 @@ fn the_santa_rosa_window_has_its_buildings() {
         let places: Vec<(f64, f64)> = corners.iter().filter_map(|id| data.node(*id)).map(Position::degrees).collect();
         let mean = |pick: fn(&(f64, f64)) -> f64| places.iter().map(pick).sum::<f64>() / places.len() as f64;
         let (lon, lat) = (mean(|p| p.0), mean(|p| p.1));
-        SANTA_ROSA.west <= lon && lon <= SANTA_ROSA.east && SANTA_ROSA.south <= lat && lat <= SANTA_ROSA.north
+        (SANTA_ROSA.west..=SANTA_ROSA.east).contains(&lon) && (SANTA_ROSA.south..=SANTA_ROSA.north).contains(&lat)
     };
     let ways = data.ways().filter(|way| way.tags.get("building").is_some() && mean_inside(way.refs)).count();
     assert_eq!(ways, 4_108);

@@ -16,10 +16,10 @@ pub fn read(name: &str, bytes: &[u8], folder: &Path, access: &Access) -> Result<
     let wrong = |message: String| AssetError::Gltf(name.to_owned(), message);
     let gltf = gltf::Gltf::from_slice(bytes).map_err(|e| wrong(e.to_string()))?;
     for buffer in gltf.document.buffers() {
-        if let gltf::buffer::Source::Uri(uri) = buffer.source() {
-            if !uri.starts_with("data:") {
-                access.resolve(folder, uri).map_err(|e| wrong(e.to_string()))?;
-            }
+        if let gltf::buffer::Source::Uri(uri) = buffer.source()
+            && !uri.starts_with("data:")
+        {
+            access.resolve(folder, uri).map_err(|e| wrong(e.to_string()))?;
         }
     }
     let buffers = gltf::import_buffers(&gltf.document, Some(folder), gltf.blob).map_err(|e| wrong(e.to_string()))?;
