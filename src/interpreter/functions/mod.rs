@@ -84,6 +84,7 @@ pub fn call(
             value
         }
         F::ListRandom => list::random(&input, env.draw(site)),
+        F::SplitString => text::split(run, &input),
         F::Replace => text::replace(run, &input)?,
         F::SetElems => array::set_elems(run, &input)?,
         F::Convert => convert::convert(run, &input, env.shape),

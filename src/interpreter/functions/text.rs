@@ -21,10 +21,6 @@ pub fn call(function: F, input: &Input) -> Option<Value> {
             let (from, to) = (at(1), at(2));
             Value::text(text.chars().skip(from).take(to.saturating_sub(from)).collect::<String>())
         }
-        F::SplitString => {
-            let delimiter = second();
-            Value::strings(text.split(&*delimiter).map(Into::into).collect())
-        }
         F::GetPrefix => Value::text(text.find(&*second()).map_or("", |i| &text[..i])),
         F::GetSuffix => {
             let mark = second();
@@ -65,6 +61,22 @@ fn nth(text: &str, wanted: &str, n: f64) -> Option<usize> {
 
 fn file_name(path: &str) -> &str {
     path.rfind('/').map_or(path, |i| &path[i + 1..])
+}
+
+/// `splitString(text, delimiter)`: empty parts are kept. Regular expressions (a delimiter that starts with `$`) are
+/// refused, but for `$\$`, which is a dollar sign.
+pub fn split(run: &mut Derivation, input: &Input) -> Value {
+    let (text, delimiter) = (input.text(0), input.text(1));
+    let delimiter = match delimiter.strip_prefix('$') {
+        Some("\\$") => "$",
+        Some(expression) if !expression.is_empty() => {
+            let message = "regular expressions in `splitString` are not supported yet".into();
+            run.error("cga::not-supported-yet", input.span, message);
+            &delimiter
+        }
+        _ => &delimiter,
+    };
+    Value::strings(text.split(delimiter).map(Into::into).collect())
 }
 
 /// `replace(text, old, new)`: all occurrences.
