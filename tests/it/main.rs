@@ -1,6 +1,8 @@
 //! Integration tests, one binary. In: the built program and the repository. Out: what a user would see, held.
 
 mod bad_input;
+mod golden;
 mod pipeline;
+mod syncw;
 mod tidy;
 mod workshop;

@@ -19,6 +19,9 @@ use clap::Parser;
 use args::{Args, Command};
 use progress::Reporter;
 
+#[global_allocator]
+static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
+
 /// The input is wrong.
 const WRONG: u8 = 1;
 /// The command line is wrong, or the machine cannot do it.
