@@ -16,6 +16,14 @@ pub fn image_path(layout: &LayoutSpec, split: Split, view: &str, image: &str) ->
     }
 }
 
+/// Whether an image is the label of a LEVIR pair: loaders expect 0 and 255 there, whatever levels or classes it holds.
+pub fn is_levir_label(layout: &LayoutSpec, image: &str) -> bool {
+    match layout {
+        LayoutSpec::Plain => false,
+        LayoutSpec::Levir(pair) | LayoutSpec::LevirFlat(pair) => pair.label == image,
+    }
+}
+
 fn role<'a>(pair: &Pair, image: &'a str) -> &'a str {
     match image {
         i if i == pair.a => "A",

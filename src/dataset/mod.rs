@@ -7,6 +7,6 @@ pub mod layout;
 pub mod manifest;
 pub mod writer;
 
-pub use layout::image_path;
+pub use layout::{image_path, is_levir_label};
 pub use manifest::Manifest;
 pub use writer::{DatasetError, write_image};

@@ -61,6 +61,10 @@ pub fn build_scene(recipe: &Recipe, index: usize, progress: &dyn Progress) -> Re
     let Place { frame, terrain, mut ledger, features, .. } = place;
     ledger.revise(features.iter().map(|f| f.id.to_string()).zip(derived.outcomes));
     ledger.merge(derived.ledger);
+    if ground.without_height > 0 {
+        let what = "elevation: ground triangles outside the files, left open";
+        *ledger.assumptions.entry(what.to_owned()).or_default() += ground.without_height;
+    }
     for missing in textures.missing {
         ledger.record(format!("texture {missing}"), Outcome::FellBack("drawn without texture".to_owned()));
     }

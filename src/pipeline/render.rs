@@ -13,8 +13,8 @@ use super::record::{acquisition_record, inputs};
 use super::views::{SceneViews, scene_views};
 use crate::dataset::manifest::{Generator, Manifest, RendererInfo, ViewRecord};
 use crate::dataset::writer::{WrittenFile, write_file};
-use crate::dataset::{DatasetError, image_path, write_image};
-use crate::frame::{Frame, Image};
+use crate::dataset::{DatasetError, image_path, is_levir_label, write_image};
+use crate::frame::{Frame, Image, Pixels};
 use crate::gpu::Renderer;
 use crate::output::{OutputError, prepare_folder};
 use crate::plan::view::DrawnView;
@@ -153,7 +153,10 @@ fn write_images(
     folder: &Path,
 ) -> Result<BTreeMap<String, WrittenFile>, DatasetError> {
     let size = (frame.width, frame.height);
-    let one = |Image { pass, pixels }: Image| {
+    let one = |Image { pass, mut pixels }: Image| {
+        if let (true, Pixels::Gray8(labels)) = (is_levir_label(&dataset.layout, &pass), &mut pixels) {
+            labels.iter_mut().for_each(|label| *label = if *label == 0 { 0 } else { 255 });
+        }
         let name = image_path(&dataset.layout, view.split, &view.name, &pass);
         Ok((pass, write_image(folder, &name, size, &pixels)?))
     };

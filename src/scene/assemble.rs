@@ -135,7 +135,7 @@ fn ground_objects(features: &[FeatureParts], ground: &GroundMesh, palette: &mut 
     let mut sorter = Sorter {
         owners: owners(features),
         ground,
-        normals: vertex_normals(ground),
+        normals: ground.normals(),
         terrain: Arc::new(Material {
             name: "terrain".into(),
             colormap: Some(TERRAIN_TEXTURE.into()),
@@ -235,17 +235,4 @@ fn finish((instance, presence, change): Key, draft: Draft, palette: &mut Palette
     let (mut mesh, materials) = draft.builder.finish();
     renumber(&mut mesh, &materials, palette);
     SceneObject { feature: draft.feature, instance, class: draft.class, presence, change, level: draft.level, mesh }
-}
-
-/// Area-weighted mean of the triangles' normals at every vertex: the ground is shaded smoothly.
-fn vertex_normals(ground: &GroundMesh) -> Vec<Vec3> {
-    let mut sums = vec![DVec3::ZERO; ground.positions.len()];
-    for (triangle, _) in &ground.triangles {
-        let [a, b, c] = triangle.map(|i| ground.positions[i as usize]);
-        let normal = (b - a).cross(c - a);
-        for i in triangle {
-            sums[*i as usize] += normal;
-        }
-    }
-    sums.into_iter().map(|n| n.normalize_or(DVec3::Y).as_vec3()).collect()
 }

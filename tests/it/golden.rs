@@ -19,7 +19,7 @@ scene town {
   rules "mansard:landcover.cga"   for landuse, natural, leisure, water
 }
 change burnt { of building  share 40%  rules "mansard:damage.cga" }
-camera low  { size 128 x 128  gsd 1m  fov 30deg  off_nadir 15deg  azimuth 200deg }
+camera low  { size 96 x 96  gsd 1.2m  fov 30deg  off_nadir 15deg  azimuth 200deg }
 sun     { elevation 35deg  azimuth 230deg }
 effects { shadows soft  ambient sky }
 pass before { show all }

@@ -56,7 +56,8 @@ fn the_real_places_run_through_the_recipe() {
         assert!((0.295..=0.505).contains(&share), "{}: {share} changed", place.name);
         assert_eq!(manifest["views"].as_array().expect("a list").len(), 2);
         let failed = scene["ledger"]["entries"].as_array().expect("a list").iter();
-        let failed: Vec<_> = failed.filter(|e| e["detail"].as_str().is_some_and(|d| d.contains("rules failed"))).collect();
+        let failed: Vec<_> =
+            failed.filter(|e| e["detail"].as_str().is_some_and(|d| d.contains("rules failed"))).collect();
         assert!(failed.is_empty(), "{}: {failed:?}", place.name);
         assert!(scene["terrain_error_m"].as_f64().expect("a number") <= 0.5, "{}", place.name);
     }

@@ -11,7 +11,6 @@
 mod arrangement;
 mod border;
 mod cover;
-pub mod drape;
 mod lattice;
 mod refine;
 #[cfg(test)]
