@@ -2,12 +2,13 @@
 //! has something to show, the ledger, the reports and the mistakes met while deriving. Parallel; order and results do not
 //! depend on the number of threads.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use glam::DVec2;
 use rayon::prelude::*;
 
-use super::lot::Lot;
+use super::lot::{Lot, Relief, relief};
 use super::place::Place;
 use super::progress::Progress;
 use super::recipe::Recipe;
@@ -17,6 +18,7 @@ use crate::geodata::feature::{Feature, FeatureClass, Outline};
 use crate::geodata::features::ribbon::{Cap, caps};
 use crate::geodata::ledger::{Ledger, Outcome};
 use crate::geodata::tags::{self, Defaults, TagValue};
+use crate::geodata::terrain::Terrain;
 use crate::interpreter::assets::Assets;
 use crate::interpreter::limits::Limits;
 use crate::interpreter::seed::Seed;
@@ -26,6 +28,10 @@ use crate::plan::change::Changed;
 use crate::scene::assemble::{FeatureParts, StateParts};
 use crate::scene::{Presence, SceneClass};
 use crate::spec::render_spec::{AttributeValue, DrawnValue, LevelEffect, RuleAssignment, SceneSpec, ValueSpec};
+
+/// Warnings after which a feature is there in a simpler form than its rules asked for.
+const FALLBACKS: &[&str] =
+    &["cga::roof", "cga::offset", "cga::setback", "cga::inner-rectangle", "cga::missing-asset", "cga::missing-texture"];
 
 /// What derivation gives.
 pub struct Derivation {
@@ -59,6 +65,8 @@ struct Context<'a> {
     limits: Limits,
     defaults: Defaults,
     seed: Seed,
+    /// Relief under all parts of one building together, by its id: they share one base.
+    wholes: BTreeMap<Arc<str>, Relief>,
 }
 
 /// Index of the first rule that takes each feature.
@@ -83,6 +91,7 @@ pub fn derive_features(
         limits: Limits::default(),
         defaults: Defaults::default(),
         seed: Seed::root(scene.seed).named("feature"),
+        wholes: wholes(&place.features, &place.terrain),
     };
     progress.begin("derive", Some(place.features.len() as u64));
     let derived: Vec<Derived> = place
@@ -121,6 +130,21 @@ pub fn derive_features(
     out
 }
 
+/// The relief under all parts of each building that has parts.
+fn wholes(features: &[Feature], terrain: &Terrain) -> BTreeMap<Arc<str>, Relief> {
+    let mut wholes: BTreeMap<Arc<str>, Relief> = BTreeMap::new();
+    for feature in features {
+        let (Some(whole), Outline::Area(polygon)) = (feature.tags.get(tags::OUTLINE_KEY), &feature.outline) else {
+            continue;
+        };
+        if let Some((least, greatest)) = relief(std::slice::from_ref(polygon), terrain) {
+            let known = wholes.entry(whole.clone()).or_insert((least, greatest));
+            *known = (known.0.min(least), known.1.max(greatest));
+        }
+    }
+    wholes
+}
+
 /// The ends of every feature's ribbon; only roads' are used.
 fn road_ends(features: &[Feature]) -> Vec<[Cap; 2]> {
     let line = |f: &Feature| match &f.outline {
@@ -143,6 +167,10 @@ fn scene_class(class: FeatureClass) -> SceneClass {
 }
 
 impl Context<'_> {
+    fn whole(&self, feature: &Feature) -> Option<Relief> {
+        self.wholes.get(feature.tags.get(tags::OUTLINE_KEY)?).copied()
+    }
+
     fn feature(&self, feature: &Feature, ends: [Cap; 2], rule: Option<usize>, touched: Option<Changed>) -> Derived {
         let mut out = Derived {
             outcome: Outcome::Ok,
@@ -156,7 +184,7 @@ impl Context<'_> {
             out.outcome = Outcome::Skipped("no rule of the recipe is for it".to_owned());
             return out;
         };
-        let lot = match Lot::new(feature, ends, &self.place.terrain) {
+        let lot = match Lot::new(feature, ends, self.whole(feature), &self.place.terrain) {
             Ok(lot) => lot,
             Err(why) => {
                 out.outcome = Outcome::Skipped(why);
@@ -173,7 +201,8 @@ impl Context<'_> {
                 if !matches!(effect, LevelEffect::Built) {
                     self.state(feature, &lot, own, key(Presence::BeforeOnly), &mut out);
                 }
-                if let (Outcome::Ok, Some(after)) = (&out.outcome, after(feature, own, effect)) {
+                if let (false, Some(after)) = (matches!(out.outcome, Outcome::Skipped(_)), after(feature, own, effect))
+                {
                     self.state(feature, &lot, after, key(Presence::AfterOnly), &mut out);
                 }
             }
@@ -207,7 +236,12 @@ impl Context<'_> {
             out.states.clear();
             return;
         }
-        let parts = lot.parts(&tree.leaves);
+        if let (Outcome::Ok, Some(simpler)) =
+            (&out.outcome, tree.diagnostics.iter().find(|d| FALLBACKS.contains(&d.code)))
+        {
+            out.outcome = Outcome::FellBack(simpler.message.clone());
+        }
+        let parts = lot.parts(&tree.leaves, &self.place.terrain);
         if counts_once {
             out.reports.add(&tree.reports);
         }

@@ -12,8 +12,11 @@ use crate::interpreter::tree::Leaf;
 use crate::scene::ground::Surface;
 use crate::scene::parts::{Parts, Stand, has_flat_face, parts};
 
-/// How far walls go on below the base on uneven ground, metres: more than the ground mesh's usual tolerance.
+/// How far walls go on below the lowest ground, metres: more than the ground mesh's usual tolerance.
 const SKIRT_M: f64 = 1.0;
+/// On a slope a building stands on its lowest ground, but the ground covers at most this much of a wall, metres: on
+/// steeper ground the base rises, and a foundation fills the gap below.
+const MOST_BURIED_M: f64 = 1.5;
 /// Ground classes from below to above; larger numbers cover smaller ones. Within a class small areas cover large ones.
 const LANDUSE: i32 = 1000;
 const LEISURE: i32 = 2000;
@@ -29,13 +32,20 @@ pub struct Lot {
     pub base: f64,
     polygons: Vec<Polygon>,
     stand: Stand,
-    /// For features that stand level unless their rules leave flat faces: how far the ground's mean is above the base.
-    rise: f64,
+}
+
+/// Least and greatest height of the ground under a feature, metres.
+pub type Relief = (f64, f64);
+
+/// The relief under some polygons; `None` where the ground is not known.
+pub fn relief(polygons: &[Polygon], terrain: &Terrain) -> Option<Relief> {
+    polygons.iter().filter_map(|p| terrain.extremes_under(p)).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
 }
 
 impl Lot {
-    /// `caps` are the ends of a road's ribbon. Says why where there is no lot.
-    pub fn new(feature: &Feature, caps: [Cap; 2], terrain: &Terrain) -> Result<Lot, String> {
+    /// `caps` are the ends of a road's ribbon; `whole` is the relief under the whole building that a part belongs to.
+    /// Says why where there is no lot.
+    pub fn new(feature: &Feature, caps: [Cap; 2], whole: Option<Relief>, terrain: &Terrain) -> Result<Lot, String> {
         let polygons = match &feature.outline {
             Outline::Area(polygon) => vec![polygon.clone()],
             Outline::Line(line) => {
@@ -45,35 +55,35 @@ impl Lot {
         if polygons.iter().all(|p| p.outer.len() < 3) {
             return Err("it covers no area".to_owned());
         }
-        let (least, mean) = heights(&polygons, terrain);
+        let (least, greatest) = whole.or_else(|| relief(&polygons, terrain)).unwrap_or((0.0, 0.0));
+        let mean = (least + greatest) / 2.0;
         let building = matches!(feature.class, FeatureClass::Building | FeatureClass::BuildingPart);
         let (base, stand) = if building {
-            (least, Stand::Level { skirt: if terrain.is_flat() { 0.0 } else { SKIRT_M } })
+            let base = least.max(greatest - MOST_BURIED_M);
+            (base, Stand::Level { skirt: if terrain.is_flat() { 0.0 } else { base - least + SKIRT_M } })
         } else if let Some(deck) = deck(feature, terrain, mean) {
             (mean, deck)
         } else {
             (mean, Stand::Draped { priority: priority(feature, &polygons), surface: surface(feature), lift: 0.0 })
         };
-        Ok(Lot { mesh: mesh(&polygons, base), base, polygons, stand, rise: mean - least })
+        Ok(Lot { mesh: mesh(&polygons, base), base, polygons, stand })
     }
 
-    /// Sorts the leaves of a derivation. Leaves with flat faces on a building's footprint, such as ash, drape it.
-    pub fn parts(&self, leaves: &[Leaf]) -> Parts {
-        let draped = Stand::Draped { priority: FOOTPRINT, surface: Surface::Drape, lift: self.rise };
+    /// Sorts the leaves of a derivation. Leaves with flat faces on a building's footprint, such as ash, drape it, and
+    /// what stands among them, such as rubble, follows the ground corner by corner.
+    pub fn parts(&self, leaves: &[Leaf], terrain: &Terrain) -> Parts {
+        let draped = Stand::Draped { priority: FOOTPRINT, surface: Surface::Drape, lift: 0.0 };
         let level = matches!(self.stand, Stand::Level { .. });
         let stand = if level && has_flat_face(leaves, self.base) { &draped } else { &self.stand };
         let nothing = Polygon::default();
-        parts(leaves, self.base, stand, self.polygons.first().unwrap_or(&nothing))
+        let mut parts = parts(leaves, self.base, stand, self.polygons.first().unwrap_or(&nothing));
+        if matches!(stand, Stand::Draped { .. }) {
+            for p in &mut parts.solid.positions {
+                p.y += terrain.height(DVec2::new(p.x, -p.z)).unwrap_or(self.base) - self.base;
+            }
+        }
+        parts
     }
-}
-
-/// Least ground height under the outlines and mean height at their corners, metres; 0 where the ground is not known.
-fn heights(polygons: &[Polygon], terrain: &Terrain) -> (f64, f64) {
-    let least = polygons.iter().filter_map(|p| terrain.extremes_under(p)).map(|(least, _)| least);
-    let least = least.reduce(f64::min).unwrap_or(0.0);
-    let corners = polygons.iter().flat_map(Polygon::rings).flatten().filter_map(|p| terrain.height(*p));
-    let (sum, count) = corners.fold((0.0, 0u32), |(sum, count), h| (sum + h, count + 1));
-    (least, if count == 0 { least } else { (sum / f64::from(count)).max(least) })
 }
 
 fn mesh(polygons: &[Polygon], base: f64) -> Mesh {

@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use crate::geodata::feature::{FeatureClass, FeatureId, ObjectKind, Tags};
+use crate::geodata::tags::OUTLINE_KEY;
 use crate::interpreter::seed::Seed;
 use crate::spec::draw::pick;
 use crate::spec::render_spec::{Amount, ChangeSpec, RenderSpec, SceneSpec};
@@ -60,8 +61,9 @@ pub fn draw_changes(
         let record = ChangeRecord { change: change.name.clone(), candidates, share, drawn: drawn.len(), overruled };
         records.push(record);
     }
-    let of = |(id, class, tags): &Candidate| {
-        let changed = taken.get(&(id.kind, id.id)).copied()?;
+    let of = |candidate: &Candidate| {
+        let (id, class, tags) = candidate;
+        let changed = taken.get(&object(candidate)).copied()?;
         // Another feature of the same object, such as a landuse around its building, is not touched.
         spec.changes[changed.change].of.matches(*class, tags, *id).then_some(changed)
     };
@@ -72,8 +74,8 @@ pub fn draw_changes(
 fn select_changed(change: &ChangeSpec, features: &[Candidate], seed: Seed) -> (usize, f64, Vec<Object>) {
     let matching = features.iter().filter(|(id, class, tags)| change.of.matches(*class, tags, *id));
     let mut ranked: Vec<(u64, Object)> = matching
-        .map(|(id, ..)| {
-            let object = (id.kind, id.id);
+        .map(|candidate| {
+            let object = object(candidate);
             (object_seed(seed, object).named("rank").bits(), object)
         })
         .collect();
@@ -93,6 +95,20 @@ fn select_changed(change: &ChangeSpec, features: &[Candidate], seed: Seed) -> (u
         Amount::All | Amount::Count(_) => wanted as f64 / total as f64,
     };
     (total, share, ranked.into_iter().take(wanted).map(|(_, object)| object).collect())
+}
+
+/// The map object that a feature changes with: building parts change with the building they belong to.
+fn object((id, _, tags): &Candidate) -> Object {
+    let outline = tags.get(OUTLINE_KEY).and_then(|outline| {
+        let (kind, number) = outline.split_once('/')?;
+        let kind = match kind {
+            "way" => ObjectKind::Way,
+            "relation" => ObjectKind::Relation,
+            _ => return None,
+        };
+        Some((kind, number.split('#').next()?.parse().ok()?))
+    });
+    outline.unwrap_or((id.kind, id.id))
 }
 
 fn object_seed(seed: Seed, (kind, id): Object) -> Seed {

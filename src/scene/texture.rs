@@ -103,7 +103,7 @@ fn blend(x: u32, y: u32, salt: u32, dark: [f64; 3], light: [f64; 3]) -> [f64; 3]
 
 /// Darkening along the joints of squares of `step` pixels.
 fn seam(x: u32, y: u32, step: u32) -> f64 {
-    if x.is_multiple_of(step) || y.is_multiple_of(step) { 0.18 } else { 0.0 }
+    if x.is_multiple_of(step) || y.is_multiple_of(step) { 0.07 } else { 0.0 }
 }
 
 fn roof_tiles(x: u32, y: u32) -> [f64; 3] {
@@ -175,7 +175,7 @@ fn forest(x: u32, y: u32) -> [f64; 3] {
 
 fn ash(x: u32, y: u32) -> [f64; 3] {
     let t = fractal(x, y, 261);
-    let v = 0.14 + 0.34 * t + if noise(x, y, 4, 262) > 0.82 { 0.18 } else { 0.0 };
+    let v = 0.14 + 0.34 * t + if noise(x, y, 4, 262) > 0.82 { 0.07 } else { 0.0 };
     [v * 1.02, v, v * 0.97]
 }
 

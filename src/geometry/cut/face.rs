@@ -39,12 +39,18 @@ impl Side {
 
 /// A corner of the boundary with the cut points put in.
 #[derive(Clone, Copy, Debug)]
-struct Corner {
-    vertex: u32,
+pub(super) struct Corner {
+    pub(super) vertex: u32,
     /// Face-edge of the source that starts here; `None` where a new edge along the cut starts.
-    edge: Option<usize>,
+    pub(super) edge: Option<usize>,
     /// The uv is that of source corner `from.0` moved by the share `from.2` towards that of `from.1`.
-    from: (usize, usize, f64),
+    pub(super) from: (usize, usize, f64),
+}
+
+/// The uv of a corner, from those of the source's corners.
+pub(super) fn corner_uv(uv: &[DVec2], corner: &Corner) -> DVec2 {
+    let (from, to, share) = corner.from;
+    uv[from] + (uv[to] - uv[from]) * share
 }
 
 /// The boundary of a face with the cut points put in, so that no edge runs from one side to the other.
@@ -168,13 +174,12 @@ impl<'a> CutFace<'a> {
 
     fn face(&self, loops: &[Vec<Corner>]) -> Face {
         let indices = |l: &Vec<Corner>| l.iter().map(|c| c.vertex).collect();
-        let uv_at = |uv: &[DVec2], c: &Corner| uv[c.from.0] + (uv[c.from.1] - uv[c.from.0]) * c.from.2;
         let corners = self.source.corners().count();
         let complete = self.source.uvs.iter().filter(|(_, uv)| uv.len() == corners);
         Face {
             outer: indices(&loops[0]),
             holes: loops[1..].iter().map(indices).collect(),
-            uvs: complete.map(|(set, uv)| (*set, loops.iter().flatten().map(|c| uv_at(uv, c)).collect())).collect(),
+            uvs: complete.map(|(set, uv)| (*set, loops.iter().flatten().map(|c| corner_uv(uv, c)).collect())).collect(),
         }
     }
 }
@@ -234,7 +239,7 @@ fn first_edge(ring: &[Corner]) -> usize {
     ring.iter().filter_map(|c| c.edge).min().unwrap_or(usize::MAX)
 }
 
-fn start_with_first_edge(ring: &mut [Corner]) {
+pub(super) fn start_with_first_edge(ring: &mut [Corner]) {
     if let Some((start, _)) = ring.iter().enumerate().filter(|(_, c)| c.edge.is_some()).min_by_key(|(_, c)| c.edge) {
         ring.rotate_left(start);
     }

@@ -7,6 +7,7 @@
 
 mod cap;
 mod face;
+mod sheet;
 
 use std::collections::BTreeMap;
 
@@ -14,6 +15,7 @@ use glam::DVec3;
 
 use super::{Face, Mesh, Plane};
 use face::{CutFace, Side};
+use sheet::Sheet;
 
 /// Where a face of a piece comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -79,6 +81,16 @@ const THICKNESS: f64 = 16.0 / (1u64 << 30) as f64;
 const RESOLUTION: f64 = 1.0 / (1u64 << 45) as f64;
 
 fn cut_piece(piece: Piece, plane: &Plane, thickness: f64) -> Cut {
+    match sheet::cut(&piece, plane, thickness) {
+        Some(Sheet::Behind) => Cut { behind: piece, front: Piece::default() },
+        Some(Sheet::Front) => Cut { behind: Piece::default(), front: piece },
+        Some(Sheet::Both(cut)) => cut,
+        None => cut_any(piece, plane, thickness),
+    }
+}
+
+/// The general way.
+fn cut_any(piece: Piece, plane: &Plane, thickness: f64) -> Cut {
     let distances: Vec<f64> = piece.mesh.positions.iter().map(|&p| plane.signed_distance(p)).collect();
     let sides: Vec<Side> = distances.iter().map(|&d| Side::of(d, thickness)).collect();
     let mut cutter = Cutter::new(&piece.mesh, plane, distances, sides);
@@ -146,17 +158,22 @@ impl<'a> Cutter<'a> {
         }
         let share =
             |i: u32, j: u32| self.distances[i as usize] / (self.distances[i as usize] - self.distances[j as usize]);
-        let positions = &mut self.positions;
+        let end = |i: u32| (self.positions[i as usize], self.distances[i as usize]);
+        let point = cut_point(end(a), end(b), self.plane);
         let vertex = *self.cut_points.entry((a.min(b), a.max(b))).or_insert_with(|| {
-            let (p, q) = (positions[a as usize], positions[b as usize]);
-            let (i, j) = if (p.x, p.y, p.z) <= (q.x, q.y, q.z) { (a, b) } else { (b, a) };
-            let (p, q) = (positions[i as usize], positions[j as usize]);
-            positions.push(on_coordinate_plane(p + (q - p) * share(i, j), self.plane));
+            self.positions.push(point);
             self.sides.push(Side::On);
-            positions.len() as u32 - 1
+            self.positions.len() as u32 - 1
         });
         Some((vertex, share(a, b)))
     }
+}
+
+/// Where the edge between two points with their distances meets the plane, the same bits whichever way it is run.
+fn cut_point(a: (DVec3, f64), b: (DVec3, f64), plane: &Plane) -> DVec3 {
+    let in_order = (a.0.x, a.0.y, a.0.z) <= (b.0.x, b.0.y, b.0.z);
+    let ((p, dp), (q, dq)) = if in_order { (a, b) } else { (b, a) };
+    on_coordinate_plane(p + (q - p) * (dp / (dp - dq)), plane)
 }
 
 fn on_coordinate_plane(mut p: DVec3, plane: &Plane) -> DVec3 {
