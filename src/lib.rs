@@ -6,7 +6,7 @@
 //! | --- | --- | --- | --- |
 //! | Source | [`source`] | paths | [`source::SourceFile`] |
 //! | Rules | [`cga`] | `SourceFile` | [`cga::program::Program`] |
-//! | Map and elevation | [`geodata`] | files | [`geodata::site::Site`] |
+//! | Map and elevation | [`geodata`] | files | [`geodata::feature::Feature`]s, [`geodata::terrain::Terrain`] |
 //! | Derivation | [`interpreter`] | `Program` + start shape + seed | [`interpreter::tree::ShapeTree`] |
 //! | Scene | [`scene`] | `ShapeTree`s + terrain | [`scene::Scene`] |
 //! | Recipe | [`spec`] | `SourceFile` | [`spec::render_spec::RenderSpec`] |

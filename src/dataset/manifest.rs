@@ -40,7 +40,7 @@ pub struct Generator {
 /// One input by content.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 pub struct InputFile {
-    /// `recipe`, `rules`, `map`, `elevation`, `asset`.
+    /// `recipe`, `rules`, `map`, `elevation`, `texture`, `asset`.
     pub role: &'static str,
     /// As the recipe or rule file names it.
     pub name: String,

@@ -6,9 +6,24 @@ use serde::Serialize;
 use super::{Diagnostic, Severity};
 use crate::source::SourceMap;
 
+/// Lines longer than this are not drawn: nobody could read them, and miette's columns end at 65,535.
+const LONGEST_LINE: usize = 10_000;
+
+/// A diagnostic without a picture.
+fn plain(diagnostic: &Diagnostic, sources: &SourceMap) -> String {
+    let file = sources.get(diagnostic.span.source);
+    let place = file.place(diagnostic.span.start);
+    let help = diagnostic.help.as_ref().map_or(String::new(), |help| format!("  help: {help}\n"));
+    let at = format!("[{}:{}:{}]", file.name, place.line, place.column);
+    format!("{}\n\n  × {}\n   {at}\n{help}", diagnostic.code, diagnostic.message)
+}
+
 /// Draws one diagnostic as miette does, with or without terminal colours.
 pub fn render(diagnostic: &Diagnostic, sources: &SourceMap, colour: bool) -> String {
     let file = sources.get(diagnostic.span.source);
+    if file.text.lines().any(|line| line.len() > LONGEST_LINE) {
+        return plain(diagnostic, sources);
+    }
     let length = (diagnostic.span.end - diagnostic.span.start) as usize;
     let at = SourceSpan::new((diagnostic.span.start as usize).into(), length);
     let label = if diagnostic.label.is_empty() { "here" } else { &diagnostic.label };
@@ -69,4 +84,19 @@ impl<'a> Rendered<'a> {
 /// One diagnostic as one line of JSON.
 pub fn json_line(diagnostic: &Diagnostic, sources: &SourceMap) -> String {
     serde_json::to_string(&Rendered::new(diagnostic, sources)).expect("plain strings and numbers serialise")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::source::Span;
+
+    #[test]
+    fn a_mistake_in_an_endless_line_is_told_without_a_picture() {
+        let mut sources = SourceMap::default();
+        let file = sources.add("long.cga", format!("{}oops", " ".repeat(70_000)));
+        let diagnostic = Diagnostic::error("test::code", Span::new(file.id, 70_000, 70_004), "what is this");
+        let text = render(&diagnostic, &sources, false);
+        assert!(text.contains("test::code") && text.contains("[long.cga:1:70001]"), "{text}");
+    }
 }

@@ -1,4 +1,4 @@
-//! Map and elevation: files → [`site::Site`] (local frame, features, terrain).
+//! Map and elevation: files → [`feature::Feature`]s in a [`projection::LocalFrame`], and [`terrain::Terrain`].
 
 pub mod elevation;
 pub mod feature;

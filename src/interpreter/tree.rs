@@ -21,7 +21,8 @@ pub struct Leaf {
     pub rule: Arc<str>,
     /// Index of the leaf's creation path, for stable identity.
     pub path: Arc<[u32]>,
-    /// Generic attributes at this leaf, sorted by name (shared between leaves that did not change them).
+    /// Generic attributes as the start shape had them, sorted by name and shared by all leaves: a later `set` does not
+    /// show, as in CityEngine.
     pub attributes: Arc<[(Arc<str>, Scalar)]>,
     pub material: Arc<Material>,
     pub mesh: Mesh,

@@ -5,14 +5,15 @@ use super::error::PipelineError;
 use super::place::{Place, place};
 use super::progress::Progress;
 use super::recipe::Recipe;
-use super::record::{Reports, geometry_hash};
+use super::record::{Reports, asset_files, geometry_hash};
 use super::textures;
-use crate::dataset::manifest::{ChangeRecord, ChangedFeature, SceneRecord};
+use crate::dataset::manifest::{ChangeRecord, ChangedFeature, InputFile, SceneRecord};
 use crate::diagnostics::Diagnostics;
 use crate::geodata::ledger::{Ledger, Outcome};
 use crate::geodata::projection::LocalFrame;
 use crate::geodata::terrain::Terrain;
 use crate::geometry::Polygon;
+use crate::output::OutputError;
 use crate::plan::change::draw_changes;
 use crate::scene::Scene;
 use crate::scene::assemble::{FeatureParts, TERRAIN_INSTANCE, assemble, ground_layers};
@@ -27,6 +28,8 @@ pub struct BuiltScene {
     pub frame: LocalFrame,
     pub terrain: Terrain,
     pub record: SceneRecord,
+    /// Textures and geometry files that rules named.
+    pub files: Vec<InputFile>,
     /// Mistakes met while deriving.
     pub diagnostics: Diagnostics,
     pub prints: Vec<String>,
@@ -41,8 +44,14 @@ pub fn build_scene(recipe: &Recipe, index: usize, progress: &dyn Progress) -> Re
 
     // Draw what changes.
     let assigned = assign(&spec.rules, &place.features);
-    let candidates: Vec<_> = place.features.iter().map(|f| (f.id, f.class, &f.tags)).collect();
-    let (touched, drawn) = draw_changes(&recipe.spec, spec, &candidates);
+    let with_rules: Vec<usize> = (0..place.features.len()).filter(|&i| assigned[i].is_some()).collect();
+    let candidate = |&i: &usize| (place.features[i].id, place.features[i].class, &place.features[i].tags);
+    let candidates: Vec<_> = with_rules.iter().map(candidate).collect();
+    let (changed, drawn) = draw_changes(&recipe.spec, spec, &candidates);
+    let mut touched = vec![None; place.features.len()];
+    for (i, change) in with_rules.into_iter().zip(changed) {
+        touched[i] = change;
+    }
 
     // Derive every feature in every state.
     let assets = recipe.assets();
@@ -56,8 +65,9 @@ pub fn build_scene(recipe: &Recipe, index: usize, progress: &dyn Progress) -> Re
         .map_err(|source| PipelineError::Ground { scene: spec.name.clone(), source })?;
     let changed = change_records(recipe, &derived.features, &drawn);
     let mut scene = assemble(derived.features, &ground);
-    let textures = textures::load(&scene.materials, &recipe.access)?;
-    scene.textures = textures.images;
+    let textures = textures::load(&mut scene, &recipe.access)?;
+    let mut files = textures.files;
+    files.extend(asset_files(&assets).map_err(|e| OutputError::new(&recipe.path, e))?);
     let Place { frame, terrain, mut ledger, features, .. } = place;
     ledger.revise(features.iter().map(|f| f.id.to_string()).zip(derived.outcomes));
     ledger.merge(derived.ledger);
@@ -80,7 +90,7 @@ pub fn build_scene(recipe: &Recipe, index: usize, progress: &dyn Progress) -> Re
         features.len(),
     );
     progress.end(&format!("{} triangles", record.triangles));
-    Ok(BuiltScene { scene, frame, terrain, record, diagnostics: derived.diagnostics, prints: derived.prints })
+    Ok(BuiltScene { scene, frame, terrain, record, files, diagnostics: derived.diagnostics, prints: derived.prints })
 }
 
 #[expect(clippy::too_many_arguments, reason = "the fields of one record")]

@@ -14,7 +14,7 @@ use super::progress::Progress;
 use super::recipe::Recipe;
 use super::record::Reports;
 use crate::diagnostics::{Diagnostics, Severity};
-use crate::geodata::feature::{Feature, FeatureClass, Outline};
+use crate::geodata::feature::{Feature, Outline};
 use crate::geodata::features::ribbon::{Cap, caps};
 use crate::geodata::ledger::{Ledger, Outcome};
 use crate::geodata::tags::{self, Defaults, TagValue};
@@ -25,8 +25,8 @@ use crate::interpreter::seed::Seed;
 use crate::interpreter::tree::{Scalar, ShapeTree};
 use crate::interpreter::{StartShape, derive};
 use crate::plan::change::Changed;
+use crate::scene::Presence;
 use crate::scene::assemble::{FeatureParts, StateParts};
-use crate::scene::{Presence, SceneClass};
 use crate::spec::render_spec::{AttributeValue, DrawnValue, LevelEffect, RuleAssignment, SceneSpec, ValueSpec};
 
 /// Warnings after which a feature is there in a simpler form than its rules asked for.
@@ -120,7 +120,7 @@ pub fn derive_features(
         out.diagnostics.extend(derived.diagnostics);
         out.prints.extend(derived.prints);
         if !derived.states.is_empty() {
-            let class = scene_class(feature.class);
+            let class = feature.class.into();
             out.features.push(FeatureParts { feature: feature.id, class, states: derived.states });
         }
     }
@@ -153,17 +153,6 @@ fn road_ends(features: &[Feature]) -> Vec<[Cap; 2]> {
     };
     let lines: Vec<Vec<DVec2>> = features.iter().map(line).collect();
     caps(&lines.iter().map(Vec::as_slice).collect::<Vec<_>>())
-}
-
-fn scene_class(class: FeatureClass) -> SceneClass {
-    match class {
-        FeatureClass::Building | FeatureClass::BuildingPart => SceneClass::Building,
-        FeatureClass::Highway => SceneClass::Highway,
-        FeatureClass::Landuse => SceneClass::Landuse,
-        FeatureClass::Natural => SceneClass::Natural,
-        FeatureClass::Leisure => SceneClass::Leisure,
-        FeatureClass::Water => SceneClass::Water,
-    }
 }
 
 impl Context<'_> {
@@ -219,7 +208,8 @@ impl Context<'_> {
         (presence, change, level): (Presence, u16, u8),
         out: &mut Derived,
     ) {
-        let counts_once = presence != Presence::AfterOnly;
+        // A feature counts once: in its state before, or after where it is built new.
+        let counts_once = presence != Presence::AfterOnly || out.states.is_empty();
         let attributes = self.attributes(feature, rule, if counts_once { Some(&mut out.ledger) } else { None });
         let start = StartShape {
             mesh: lot.mesh.clone(),
@@ -234,6 +224,8 @@ impl Context<'_> {
             out.outcome = Outcome::Skipped(why);
             out.diagnostics.extend(tree.diagnostics);
             out.states.clear();
+            out.reports = Reports::default();
+            out.prints.clear();
             return;
         }
         if let (Outcome::Ok, Some(simpler)) =
@@ -299,9 +291,7 @@ impl Context<'_> {
 /// The rules of the state *after*; `None` where the feature is gone.
 fn after<'a>(feature: &Feature, own: &'a RuleAssignment, effect: &'a LevelEffect) -> Option<&'a RuleAssignment> {
     match effect {
-        LevelEffect::Rules(rules) => {
-            rules.iter().find(|r| r.filter.matches(feature.class, &feature.tags, feature.id)).or(Some(own))
-        }
+        LevelEffect::Rules(rules) => rules.iter().find(|r| r.filter.matches(feature.class, &feature.tags, feature.id)),
         LevelEffect::Demolished => None,
         LevelEffect::Built => Some(own),
     }

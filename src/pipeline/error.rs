@@ -43,6 +43,10 @@ pub enum PipelineError {
     Dataset(#[from] DatasetError),
     #[error(transparent)]
     Gpu(#[from] GpuError),
+    #[error("the recipe has no dataset; `mansard build` writes the geometry alone")]
+    NoDataset,
+    #[error("no object of the map lies in the area of scene `{0}`")]
+    NothingInArea(String),
     #[error("no view of the recipe is called {0}; `mansard plan` lists them")]
     NoSuchView(String),
 }

@@ -49,6 +49,9 @@ pub fn place(recipe: &Recipe, scene: &SceneSpec, progress: &dyn Progress) -> Res
     let features = extract(&data, Some(&area), &project, &mut ledger);
     let ring = area.ring(&project);
     drop(data);
+    if features.is_empty() && ledger.entries.is_empty() {
+        return Err(PipelineError::NothingInArea(scene.name.clone()));
+    }
     progress.end(&format!("{} features", features.len()));
 
     progress.begin("elevation", None);

@@ -71,7 +71,11 @@ impl Recipe {
 
     /// The command line's arguments as the manifest tells them: paths by their names alone.
     pub fn arguments_without_folders(&self) -> BTreeMap<String, String> {
-        let last = |value: &str| value.rsplit(['/', '\\']).next().unwrap_or(value).to_owned();
-        self.arguments.iter().map(|(name, value)| (name.clone(), last(value))).collect()
+        let short = |item: &str| match Path::new(item.trim()) {
+            path if path.exists() => path.file_name().unwrap_or_default().to_string_lossy().into_owned(),
+            _ => item.to_owned(),
+        };
+        let shortened = |value: &str| value.split(',').map(short).collect::<Vec<_>>().join(",");
+        self.arguments.iter().map(|(name, value)| (name.clone(), shortened(value))).collect()
     }
 }

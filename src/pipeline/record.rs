@@ -1,13 +1,15 @@
 //! What the manifest says of a run. In: the recipe, the built scenes, the views. Out: the manifest's blocks.
 
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 
+use super::build::BuiltScene;
 use super::recipe::Recipe;
 use crate::dataset::manifest::{AcquisitionRecord, InputFile, ReportRecord};
 use crate::dataset::writer::sha256;
+use crate::interpreter::FileAssets;
 use crate::interpreter::tree::Report;
 use crate::plan::demand::{Projection, ViewDemand};
 use crate::plan::sun::to_angles;
@@ -47,10 +49,12 @@ impl Reports {
 }
 
 /// Every input by content: texts as they were read, map and elevation files from disk.
-pub fn inputs(recipe: &Recipe, sources: &SourceMap) -> std::io::Result<Vec<InputFile>> {
+pub fn inputs(recipe: &Recipe, sources: &SourceMap, built: &[BuiltScene]) -> std::io::Result<Vec<InputFile>> {
     let mut inputs: Vec<InputFile> = sources
         .files()
         .iter()
+        // Values of the command line are texts of their own, told under `arguments`.
+        .filter(|file| !file.name.starts_with("--set "))
         .map(|file| InputFile {
             role: if file.name.ends_with(".cga") { "rules" } else { "recipe" },
             name: base_name(&file.name),
@@ -64,6 +68,7 @@ pub fn inputs(recipe: &Recipe, sources: &SourceMap) -> std::io::Result<Vec<Input
             inputs.push(input(role, file, recipe)?);
         }
     }
+    inputs.extend(built.iter().flat_map(|scene| scene.files.iter().cloned()));
     inputs.sort();
     inputs.dedup();
     Ok(inputs)
@@ -71,10 +76,20 @@ pub fn inputs(recipe: &Recipe, sources: &SourceMap) -> std::io::Result<Vec<Input
 
 fn input(role: &'static str, file: &FileRef, recipe: &Recipe) -> std::io::Result<InputFile> {
     let path = file.resolve(&recipe.access).map_err(std::io::Error::other)?;
+    hash_file(role, base_name(&file.written), &path)
+}
+
+/// Geometry files that rules inserted.
+pub fn asset_files(assets: &FileAssets) -> std::io::Result<Vec<InputFile>> {
+    let hash = |path: PathBuf| hash_file("asset", base_name(&path.to_string_lossy()), &path);
+    assets.files().into_iter().filter(|path| path.is_file()).map(hash).collect()
+}
+
+fn hash_file(role: &'static str, name: String, path: &Path) -> std::io::Result<InputFile> {
     let mut hash = Sha256::new();
     let bytes = std::io::copy(&mut std::fs::File::open(path)?, &mut Hashing(&mut hash))?;
     let sha256 = hash.finalize().iter().map(|b| format!("{b:02x}")).collect();
-    Ok(InputFile { role, name: base_name(&file.written), bytes, sha256 })
+    Ok(InputFile { role, name, bytes, sha256 })
 }
 
 /// Lets a hash be written to.

@@ -48,6 +48,9 @@ pub fn render_dataset(
     progress: &dyn Progress,
     told: &dyn Fn(&BuiltScene),
 ) -> Result<RenderSummary, PipelineError> {
+    if recipe.spec.datasets.is_empty() {
+        return Err(PipelineError::NoDataset);
+    }
     check_wanted(recipe, options)?;
     prepare_folder(&options.output)?;
     let several = recipe.spec.datasets.len() > 1;
@@ -84,11 +87,15 @@ pub fn render_dataset(
         }
         summary.views += records.len();
         summary.images += records.iter().map(|r| r.images.len()).sum::<usize>();
-        let manifest = manifest(recipe, dataset, sources, &renderer, &built, records, scene_files.clone())?;
+        // Scenes lie beside the folders of several datasets.
+        let from_here = |f: &WrittenFile| WrittenFile { path: format!("../{}", f.path), sha256: f.sha256.clone() };
+        let files = if several { scene_files.iter().map(from_here).collect() } else { scene_files.clone() };
+        let manifest = manifest(recipe, dataset, sources, &renderer, &built, records, files)?;
         write_file(&folder, Path::new("manifest.json"), &manifest.to_bytes())?;
+        let prefix = if several { format!("{}/", dataset.name) } else { String::new() };
+        summary.other_files.push(format!("{prefix}manifest.json"));
     }
     summary.other_files.extend(scene_files.into_iter().map(|f| f.path));
-    summary.other_files.push("manifest.json".to_owned());
     Ok(summary)
 }
 
@@ -195,7 +202,7 @@ fn manifest(
         attribution: recipe.attribution().to_owned(),
         dataset: dataset.name.clone(),
         arguments: recipe.arguments_without_folders(),
-        inputs: inputs(recipe, sources).map_err(|e| OutputError::new(&recipe.path, e))?,
+        inputs: inputs(recipe, sources, built).map_err(|e| OutputError::new(&recipe.path, e))?,
         renderer: RendererInfo {
             backend: adapter.backend.clone(),
             adapter: adapter.name.clone(),

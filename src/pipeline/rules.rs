@@ -103,7 +103,17 @@ fn compile_file(
         cga::compile_text(&format!("mansard:{}", file.written), text, sources, &options)
     } else {
         match file.resolve(access) {
-            Ok(path) => cga::compile(&path, access, sources, &options),
+            Ok(path) => {
+                let mut own = access.clone();
+                if file.origin == Origin::CommandLine
+                    && let Some(folder) = path.parent()
+                    && let Err(error) = own.allow(folder)
+                {
+                    diagnostics.push(unreadable(file, &error));
+                    return None;
+                }
+                cga::compile(&path, &own, sources, &options)
+            }
             Err(error) => {
                 diagnostics.push(unreadable(file, &error));
                 return None;

@@ -20,6 +20,6 @@ pub fn single_scene(tree: &ShapeTree, access: &Access) -> Result<Scene, Pipeline
         states: vec![StateParts { presence: Presence::Both, change: 0, level: 0, parts }],
     };
     let mut scene = assemble(vec![feature], &GroundMesh::default());
-    scene.textures = textures::load(&scene.materials, access)?.images;
+    textures::load(&mut scene, access)?;
     Ok(scene)
 }

@@ -11,7 +11,7 @@ use crate::geodata::feature::{FeatureClass, FeatureId, ObjectKind, Tags};
 use crate::geodata::tags::OUTLINE_KEY;
 use crate::interpreter::seed::Seed;
 use crate::spec::draw::pick;
-use crate::spec::render_spec::{Amount, ChangeSpec, RenderSpec, SceneSpec};
+use crate::spec::render_spec::{Amount, ChangeSpec, LevelEffect, LevelSpec, RenderSpec, SceneSpec};
 
 /// A feature's change: indices into [`RenderSpec::changes`] and [`ChangeSpec::levels`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -65,14 +65,23 @@ pub fn draw_changes(
         let (id, class, tags) = candidate;
         let changed = taken.get(&object(candidate)).copied()?;
         // Another feature of the same object, such as a landuse around its building, is not touched.
-        spec.changes[changed.change].of.matches(*class, tags, *id).then_some(changed)
+        can_change(&spec.changes[changed.change], *id, *class, tags).then_some(changed)
     };
     (features.iter().map(of).collect(), records)
 }
 
+/// Whether a change is of this feature and has something to make of it at every level.
+fn can_change(change: &ChangeSpec, id: FeatureId, class: FeatureClass, tags: &Tags) -> bool {
+    let has_effect = |level: &LevelSpec| match &level.effect {
+        LevelEffect::Rules(rules) => rules.iter().any(|rule| rule.filter.matches(class, tags, id)),
+        LevelEffect::Demolished | LevelEffect::Built => true,
+    };
+    change.of.matches(class, tags, id) && change.levels.iter().all(has_effect)
+}
+
 /// The number of candidates, the share drawn, and the objects that change, by rank.
 fn select_changed(change: &ChangeSpec, features: &[Candidate], seed: Seed) -> (usize, f64, Vec<Object>) {
-    let matching = features.iter().filter(|(id, class, tags)| change.of.matches(*class, tags, *id));
+    let matching = features.iter().filter(|(id, class, tags)| can_change(change, *id, *class, tags));
     let mut ranked: Vec<(u64, Object)> = matching
         .map(|candidate| {
             let object = object(candidate);

@@ -27,13 +27,6 @@ impl Format {
             Format::Id32 => "id32",
         }
     }
-
-    pub fn bytes_per_texel(self) -> u64 {
-        match self {
-            Format::Depth32 | Format::Srgb8 | Format::Id32 => 4,
-            Format::Radiance16 => 8,
-        }
-    }
 }
 
 /// A texture to allocate. Equal keys share one: no two of them are in use at once.

@@ -12,7 +12,7 @@ use super::demand::{
     Ambient, Camera, Output, OutputDemand, Projection, Quality, Selection, Shadows, State, ViewDemand,
 };
 use super::sun::sun;
-use crate::geodata::feature::{FeatureClass, FeatureId};
+use crate::geodata::feature::FeatureId;
 use crate::interpreter::seed::Seed;
 use crate::scene::{Presence, Scene, SceneClass};
 use crate::spec::draw::Distribution;
@@ -288,7 +288,7 @@ fn member(object: &PlacedObject, set: &SetSpec, spec: &RenderSpec) -> bool {
     match set {
         SetSpec::All => true,
         SetSpec::Terrain => object.class == SceneClass::Terrain,
-        SetSpec::Class(class) => object.class == scene_class(*class),
+        SetSpec::Class(class) => object.class == SceneClass::from(*class),
         SetSpec::Change(change) => usize::from(object.change) == change + 1,
         SetSpec::Changed => {
             let change = usize::from(object.change).checked_sub(1).and_then(|change| spec.changes.get(change));
@@ -297,17 +297,6 @@ fn member(object: &PlacedObject, set: &SetSpec, spec: &RenderSpec) -> bool {
         SetSpec::Any(sets) => sets.iter().any(|set| member(object, set, spec)),
         SetSpec::Every(sets) => sets.iter().all(|set| member(object, set, spec)),
         SetSpec::Not(set) => !member(object, set, spec),
-    }
-}
-
-fn scene_class(class: FeatureClass) -> SceneClass {
-    match class {
-        FeatureClass::Building | FeatureClass::BuildingPart => SceneClass::Building,
-        FeatureClass::Highway => SceneClass::Highway,
-        FeatureClass::Landuse => SceneClass::Landuse,
-        FeatureClass::Natural => SceneClass::Natural,
-        FeatureClass::Leisure => SceneClass::Leisure,
-        FeatureClass::Water => SceneClass::Water,
     }
 }
 

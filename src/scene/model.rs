@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DVec3, Vec2, Vec3};
 
-use crate::geodata::feature::FeatureId;
+use crate::geodata::feature::{FeatureClass, FeatureId};
 use crate::interpreter::material::Material;
 
 /// In which of the two states of the scene an object exists.
@@ -26,6 +26,19 @@ pub enum SceneClass {
     Natural = 5,
     Leisure = 6,
     Water = 7,
+}
+
+impl From<FeatureClass> for SceneClass {
+    fn from(class: FeatureClass) -> Self {
+        match class {
+            FeatureClass::Building | FeatureClass::BuildingPart => SceneClass::Building,
+            FeatureClass::Highway => SceneClass::Highway,
+            FeatureClass::Landuse => SceneClass::Landuse,
+            FeatureClass::Natural => SceneClass::Natural,
+            FeatureClass::Leisure => SceneClass::Leisure,
+            FeatureClass::Water => SceneClass::Water,
+        }
+    }
 }
 
 impl SceneClass {

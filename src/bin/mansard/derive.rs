@@ -3,7 +3,8 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use mansard::cga::{self, program::Program};
+use mansard::cga::program::{Program, Type};
+use mansard::cga::{self, CompileOptions};
 use mansard::geometry::Mesh;
 use mansard::interpreter::seed::Seed;
 use mansard::interpreter::tree::{Scalar, ShapeTree};
@@ -18,39 +19,43 @@ use crate::check::rule_access;
 use crate::footprint;
 use crate::report::{self, Failure};
 
-pub fn run(args: &DeriveArgs) -> Result<(), Failure> {
+pub fn run(args: &DeriveArgs, quiet: bool) -> Result<(), Failure> {
     let mesh = footprint::parse(&args.footprint).map_err(|e| Failure::unable(format!("--footprint: {e}")))?;
     let access = rule_access(&args.rules, &args.allow)?;
     let mut sources = SourceMap::default();
-    let program = compile(&args.rules, &access, &mut sources)?;
-    let attributes = args.attributes.iter().map(|a| attribute(a, &program)).collect::<Result<_, _>>()?;
-    let start = StartShape { attributes, start_rule: args.start.clone(), ..start(mesh, args.seed) };
-    let tree = derive(&program, &start, &FileAssets::new(access.clone()), &Limits::default());
-    report::print(&tree.diagnostics, &sources);
-    write(&tree, args, &access, &sources)?;
+    let (program, mut diagnostics) = cga::compile(&args.rules, &access, &mut sources, &CompileOptions::default());
+    let mut tree = ShapeTree::default();
+    if let Some(program) = &program {
+        let attributes = args.attributes.iter().map(|a| attribute(a, program)).collect::<Result<_, _>>()?;
+        let start = StartShape { attributes, start_rule: args.start.clone(), ..start(mesh, args.seed) };
+        tree = derive(program, &start, &FileAssets::new(access.clone()), &Limits::default());
+    }
+    diagnostics.extend(std::mem::take(&mut tree.diagnostics));
+    tree.diagnostics = diagnostics;
+    report::print(&tree.diagnostics, &sources, quiet);
+    if program.is_some() || args.format == DeriveFormat::Json {
+        write(&tree, args, &access, &sources)?;
+    }
     if tree.diagnostics.has_errors() { Err(Failure::said()) } else { Ok(()) }
 }
 
 /// `mansard dump tree`: the tree on a 10 m × 8 m footprint.
-pub fn dump(file: &Path) -> Result<(), Failure> {
-    let access = rule_access(file, &[])?;
-    let mut sources = SourceMap::default();
-    let program = compile(file, &access, &mut sources)?;
-    let mesh = footprint::parse("0,0 10,0 10,-8 0,-8").expect("four corners");
-    let tree = derive(&program, &start(mesh, 0), &FileAssets::new(access), &Limits::default());
-    report::print(&tree.diagnostics, &sources);
-    print!("{}", to_text(&tree));
-    if tree.diagnostics.has_errors() { Err(Failure::said()) } else { Ok(()) }
+pub fn dump(file: &Path, quiet: bool) -> Result<(), Failure> {
+    let args = DeriveArgs {
+        rules: file.to_owned(),
+        footprint: "0,0 10,0 10,-8 0,-8".to_owned(),
+        start: None,
+        attributes: Vec::new(),
+        seed: 0,
+        format: DeriveFormat::Tree,
+        output: None,
+        allow: Vec::new(),
+    };
+    run(&args, quiet)
 }
 
 fn start(mesh: Mesh, seed: u64) -> StartShape {
     StartShape { mesh, start_rule: None, attributes: Vec::new(), seed: Seed::root(seed), name: "footprint".into() }
-}
-
-fn compile(file: &Path, access: &Access, sources: &mut SourceMap) -> Result<Program, Failure> {
-    let (program, diagnostics) = cga::compile(file, access, sources, &cga::CompileOptions::default());
-    report::print(&diagnostics, sources);
-    program.ok_or_else(Failure::said)
 }
 
 /// `name=value`: a number, `true`, `false`, or text.
@@ -63,11 +68,16 @@ fn attribute(text: &str, program: &Program) -> Result<(Arc<str>, Scalar), Failur
         let meant = mansard::diagnostics::suggest(name, names()).map(|m| format!(", did you mean `{m}`?"));
         return Err(Failure::wrong(format!("the rule file has no attribute `{name}`{}", meant.unwrap_or_default())));
     }
-    let value = match (value, value.parse::<f64>()) {
-        ("true", _) => Scalar::Bool(true),
-        ("false", _) => Scalar::Bool(false),
-        (_, Ok(number)) if number.is_finite() => Scalar::Float(number),
-        _ => Scalar::String(value.into()),
+    let kind = program.attributes().iter().find(|a| &*a.name == name).and_then(|a| a.kind);
+    let value = match (kind, value, value.parse::<f64>()) {
+        (Some(Type::String), text, _) => Scalar::String(text.into()),
+        (_, "true", _) => Scalar::Bool(true),
+        (_, "false", _) => Scalar::Bool(false),
+        (_, _, Ok(number)) if number.is_finite() => Scalar::Float(number),
+        (Some(Type::Float | Type::Bool), value, _) => {
+            return Err(Failure::wrong(format!("--attr {text}: `{value}` is no value of `{name}`")));
+        }
+        (_, text, _) => Scalar::String(text.into()),
     };
     Ok((name.into(), value))
 }
@@ -88,9 +98,6 @@ fn write(tree: &ShapeTree, args: &DeriveArgs, access: &Access, sources: &SourceM
     };
     match &args.output {
         Some(path) => write_bytes(path, &bytes).map_err(|e| Failure::unable(e.to_string())),
-        None => {
-            use std::io::Write;
-            std::io::stdout().write_all(&bytes).map_err(|e| Failure::unable(format!("standard output: {e}")))
-        }
+        None => report::out_bytes(&bytes),
     }
 }

@@ -10,7 +10,7 @@ use crate::check::rule_access;
 use crate::derive;
 use crate::report::{self, Failure};
 
-pub fn run(phase: Phase, file: &Path) -> Result<(), Failure> {
+pub fn run(phase: Phase, file: &Path, quiet: bool) -> Result<(), Failure> {
     let is_recipe = file.extension().is_some_and(|e| e == "render");
     let access = rule_access(file, &[])?;
     let mut sources = SourceMap::default();
@@ -27,14 +27,11 @@ pub fn run(phase: Phase, file: &Path) -> Result<(), Failure> {
         (Phase::Ast, false) => cga::dump_ast(file, &access, &mut sources),
         (Phase::Program, false) => cga::dump_program(file, &access, &mut sources),
         (Phase::Tree, true) => return Err(Failure::unable("a recipe has no single tree; name a .cga file")),
-        (Phase::Tree, false) => return derive::dump(file),
+        (Phase::Tree, false) => return derive::dump(file, quiet),
     };
-    report::print(&diagnostics, &sources);
-    match text {
-        Some(text) => {
-            print!("{text}");
-            Ok(())
-        }
-        None => Err(Failure::said()),
+    report::print(&diagnostics, &sources, quiet);
+    if let Some(text) = &text {
+        report::out(text)?;
     }
+    if text.is_none() || diagnostics.has_errors() { Err(Failure::said()) } else { Ok(()) }
 }

@@ -32,14 +32,14 @@ fn main() -> ExitCode {
     let args = Args::parse();
     let reporter = Reporter::new(args.quiet);
     let result = match args.command {
-        Command::Check { files, format, recipe } => check::run(&files, format, &recipe),
-        Command::Derive(derive) => derive::run(&derive),
+        Command::Check { files, format, recipe } => check::run(&files, format, &recipe, args.quiet),
+        Command::Derive(derive) => derive::run(&derive, args.quiet),
         Command::Build { recipe, output, options, work } => build::run(&recipe, &output, &options, &work, &reporter),
         Command::Render { recipe, output, views, options, work } => {
             render::run(&recipe, &output, &views, &options, &work, &reporter)
         }
         Command::Plan { recipe, format, options, work } => plan::run(&recipe, format, &options, &work, &reporter),
-        Command::Dump { phase, file } => dump::run(phase, &file),
+        Command::Dump { phase, file } => dump::run(phase, &file, args.quiet),
         Command::Town { seed, buildings, output, name } => town::run(seed, buildings, &output, &name, &reporter),
     };
     match result {

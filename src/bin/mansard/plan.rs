@@ -19,12 +19,12 @@ pub fn run(
 ) -> Result<(), Failure> {
     use_threads(work)?;
     let mut sources = SourceMap::default();
-    let recipe = load(path, options, &mut sources)?;
+    let recipe = load(path, options, &mut sources, reporter.is_quiet())?;
     let planned = plan_views(&recipe, reporter).map_err(|e| report::failure(e, &sources))?;
     match format {
-        PlanFormat::Text => print!("{}", planned.text()),
-        PlanFormat::Json => println!("{:#}", planned.json()),
-        PlanFormat::Dot => print!("{}", planned.dot()),
+        PlanFormat::Text => report::out(&planned.text())?,
+        PlanFormat::Json => report::out(&format!("{:#}\n", planned.json()))?,
+        PlanFormat::Dot => report::out(&planned.dot())?,
     }
     Ok(())
 }

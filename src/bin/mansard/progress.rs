@@ -43,6 +43,10 @@ impl Reporter {
         Reporter { look, running: Mutex::new(None) }
     }
 
+    pub fn is_quiet(&self) -> bool {
+        matches!(self.look, Look::Nothing)
+    }
+
     /// Prints a line above the bars.
     pub fn say(&self, line: &str) {
         match &self.look {

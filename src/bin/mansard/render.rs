@@ -20,9 +20,10 @@ pub fn run(
 ) -> Result<(), Failure> {
     use_threads(work)?;
     let mut sources = SourceMap::default();
-    let recipe = load(path, options, &mut sources)?;
+    let recipe = load(path, options, &mut sources, reporter.is_quiet())?;
     let options = RenderOptions { output: output.to_owned(), views: views.to_vec() };
-    let told = |built: &mansard::pipeline::BuiltScene| tell(built, &sources, reporter);
+    let failed = std::cell::Cell::new(false);
+    let told = |built: &mansard::pipeline::BuiltScene| failed.set(failed.get() | !tell(built, &sources, reporter));
     let summary =
         render_dataset(&recipe, &options, &sources, reporter, &told).map_err(|e| report::failure(e, &sources))?;
     reporter.say(&format!(
@@ -32,5 +33,5 @@ pub fn run(
         summary.other_files.join(", "),
         output.display()
     ));
-    Ok(())
+    if failed.get() { Err(Failure::said()) } else { Ok(()) }
 }

@@ -1,6 +1,6 @@
 //! How the program says what went wrong. In: failures. Out: text on standard error and the exit code.
 
-use std::io::IsTerminal;
+use std::io::{IsTerminal, Write};
 use std::process::ExitCode;
 
 use mansard::diagnostics::{Diagnostics, Severity, render};
@@ -32,25 +32,47 @@ impl Failure {
         Failure { code: WRONG, message: None }
     }
 
-    pub fn report(self) -> ExitCode {
-        if let Some(message) = self.message {
+    /// Says what there is to say.
+    pub fn tell(&self) {
+        if let Some(message) = &self.message {
             eprintln!("error: {message}");
         }
+    }
+
+    pub fn report(self) -> ExitCode {
+        self.tell();
         ExitCode::from(self.code)
     }
 }
 
-/// Prints diagnostics as pictures of their places, errors last so that they stay in sight.
-pub fn print(diagnostics: &Diagnostics, sources: &SourceMap) {
+/// Prints what a command gives; a reader that stops listening ends it in peace.
+pub fn out(text: &str) -> Result<(), Failure> {
+    out_bytes(text.as_bytes())
+}
+
+/// [`out`] of any bytes.
+pub fn out_bytes(bytes: &[u8]) -> Result<(), Failure> {
+    let mut stdout = std::io::stdout().lock();
+    match stdout.write_all(bytes).and_then(|()| stdout.flush()) {
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
+            Err(Failure::unable(format!("standard output: {error}")))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Prints diagnostics as pictures of their places, errors last so that they stay in sight; `quiet` leaves warnings out.
+pub fn print(diagnostics: &Diagnostics, sources: &SourceMap, quiet: bool) {
     let colour = std::io::stderr().is_terminal();
-    for severity in [Severity::Warning, Severity::Error] {
+    let shown = if quiet { &[Severity::Error][..] } else { &[Severity::Warning, Severity::Error] };
+    for &severity in shown {
         for diagnostic in diagnostics.iter().filter(|d| d.severity == severity) {
             eprint!("{}", render(diagnostic, sources, colour));
         }
     }
     let errors = diagnostics.iter().filter(|d| d.severity == Severity::Error).count();
     let warnings = diagnostics.iter().count() - errors;
-    if errors + warnings > 0 {
+    if errors > 0 || (warnings > 0 && !quiet) {
         eprintln!("{errors} errors, {warnings} warnings");
     }
 }
@@ -60,7 +82,7 @@ pub fn failure(error: PipelineError, sources: &SourceMap) -> Failure {
     let code = error.exit_code();
     match error {
         PipelineError::Diagnostics(diagnostics) => {
-            print(&diagnostics, sources);
+            print(&diagnostics, sources, false);
             Failure { code, message: None }
         }
         other => Failure { code, message: Some(chain(&other)) },

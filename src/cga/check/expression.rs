@@ -115,13 +115,11 @@ impl Body<'_, '_> {
     /// The type all branches share; branches of different types are a mistake.
     pub fn common<'e>(&mut self, values: impl Iterator<Item = &'e Expr>) -> Option<Type> {
         let mut first: Option<Type> = None;
-        let mut unknown = false;
         let mut wrong: Vec<(Span, Type, Type)> = Vec::new();
         for value in values {
             match (first, value.value) {
                 (None, Some(kind)) => first = Some(kind),
                 (Some(wanted), Some(found)) if wanted != found => wrong.push((value.span, wanted, found)),
-                (_, None) => unknown = true,
                 _ => {}
             }
         }
@@ -130,7 +128,6 @@ impl Body<'_, '_> {
             self.error(codes::TYPE_MISMATCH, span, message);
         }
         // A branch of unknown type is mostly the function calling itself; the known branches decide.
-        let _ = unknown;
         first
     }
 

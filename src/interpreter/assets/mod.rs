@@ -125,6 +125,13 @@ impl FileAssets {
     }
 }
 
+impl FileAssets {
+    /// Every geometry file that was read, sorted.
+    pub fn files(&self) -> Vec<PathBuf> {
+        self.read.lock().unwrap_or_else(PoisonError::into_inner).keys().cloned().collect()
+    }
+}
+
 impl Asset {
     pub fn new(form: Form) -> Self {
         let (low, high) = form.mesh.bounds().unwrap_or_default();

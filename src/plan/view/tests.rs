@@ -1,6 +1,7 @@
 //! Recipes in, demands out.
 
 use super::*;
+use crate::geodata::feature::FeatureClass;
 use crate::geodata::feature::{ObjectKind, Tags};
 use crate::plan::change::{Candidate, draw_changes};
 use crate::source::{Access, SourceMap};
