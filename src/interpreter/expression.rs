@@ -110,7 +110,12 @@ impl<'p> Derivation<'p> {
     }
 
     pub fn eval_args(&mut self, args: &'p [Arg], env: &Env) -> Outcome<Vec<Evaluated>> {
-        args.iter().map(|arg| self.eval_arg(arg, env)).collect()
+        // Collecting results would not know the length.
+        let mut list = Vec::with_capacity(args.len());
+        for arg in args {
+            list.push(self.eval_arg(arg, env)?);
+        }
+        Ok(list)
     }
 
     fn eval_arg(&mut self, arg: &'p Arg, env: &Env) -> Outcome<Evaluated> {

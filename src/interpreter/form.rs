@@ -58,8 +58,10 @@ impl Form {
 
 /// Copies the named faces with the vertices they use, numbered in the order the faces run through them.
 fn submesh(mesh: &Mesh, faces: &[usize]) -> Mesh {
-    let mut out = Mesh::default();
-    let mut places = Renumbering::default();
+    let corners = faces.iter().map(|&f| mesh.faces[f].loops().map(Vec::len).sum::<usize>()).sum::<usize>();
+    let most = corners.min(mesh.positions.len());
+    let mut out = Mesh { positions: Vec::with_capacity(most), faces: Vec::with_capacity(faces.len()) };
+    let mut places = Renumbering::for_at_most(most);
     for &f in faces {
         let mut face = mesh.faces[f].clone();
         for v in face.outer.iter_mut().chain(face.holes.iter_mut().flatten()) {
@@ -71,7 +73,6 @@ fn submesh(mesh: &Mesh, faces: &[usize]) -> Mesh {
 }
 
 /// New numbers for old vertices, in order of first use: a list while there are few, a tree for many.
-#[derive(Default)]
 struct Renumbering {
     few: Vec<u32>,
     many: BTreeMap<u32, u32>,
@@ -79,6 +80,10 @@ struct Renumbering {
 
 impl Renumbering {
     const FEW: usize = 48;
+
+    fn for_at_most(most: usize) -> Self {
+        Renumbering { few: Vec::with_capacity(most.min(Self::FEW)), many: BTreeMap::new() }
+    }
 
     fn place(&mut self, old: u32, add: impl FnOnce()) -> u32 {
         let known = if self.many.is_empty() {

@@ -135,6 +135,7 @@ impl<'p> Derivation<'p> {
 
     /// Runs each piece's block on the piece.
     fn execute_pieces(&mut self, pieces: Pieces<'p>, seed: Seed, body: &mut Body) -> Outcome<()> {
+        body.children.reserve(pieces.len());
         for (number, (mut piece, successor)) in pieces.into_iter().enumerate() {
             piece.seed = seed.part(number as u64);
             let reference = piece.scope;

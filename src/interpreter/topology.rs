@@ -40,7 +40,13 @@ const FEW: usize = 24;
 
 impl Topology {
     pub fn of(mesh: &Mesh) -> Topology {
-        let mut out = Topology { face_starts: vec![0], ..Topology::default() };
+        let uses = mesh.faces.iter().flat_map(|face| face.loops()).map(Vec::len).sum();
+        let mut out = Topology {
+            edges: Vec::with_capacity(uses),
+            edge_of_face_edge: Vec::with_capacity(uses),
+            face_starts: Vec::with_capacity(mesh.faces.len() + 1),
+        };
+        out.face_starts.push(0);
         let mut index: BTreeMap<(u32, u32), u32> = BTreeMap::new();
         for (f, face) in mesh.faces.iter().enumerate() {
             for (from, to) in face.edges() {

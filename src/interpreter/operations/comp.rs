@@ -34,7 +34,7 @@ pub fn pieces<'p>(
     let tests: Vec<Test> = selectors.iter().map(|s| Test { test: &s.test, text: &s.text }).collect();
     let components = Components::of(&parent, component, keep_axes, wants_roof_edges(&tests));
     let owners = assign(run, &components, &parent, &tests, env)?;
-    let mut out: Pieces<'p> = Vec::new();
+    let mut out: Pieces<'p> = Vec::with_capacity(components.len());
     for (number, selector) in selectors.iter().enumerate() {
         let members: Vec<usize> = (0..owners.len()).filter(|&i| owners[i] == Some(number)).collect();
         let groups = grouped(&components, &parent, members, selector.operator);
