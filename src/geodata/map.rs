@@ -11,8 +11,9 @@ pub use super::features::area::Area;
 pub use super::osm::{LonLatBox, MapError, MapPlace, OsmData};
 
 /// Reads all files into one map; of objects with the same id the one read first stays.
-pub fn read_map(paths: &[PathBuf]) -> Result<OsmData, MapError> {
-    super::osm::read_files(paths)
+/// `heard` is told of every run of bytes that was read.
+pub fn read_map(paths: &[PathBuf], heard: &(dyn Fn(u64) + Sync)) -> Result<OsmData, MapError> {
+    super::osm::read_files(paths, heard)
 }
 
 /// Makes the scene's features, sorted by id. See [`super::features`] for what becomes of each object.

@@ -34,8 +34,10 @@ pub fn place(recipe: &Recipe, scene: &SceneSpec, progress: &dyn Progress) -> Res
     };
     let mut ledger = Ledger::default();
 
-    progress.begin("map", None);
-    let data = read_map(&resolve(&scene.maps)?)?;
+    let maps = resolve(&scene.maps)?;
+    let bytes = maps.iter().map(|path| std::fs::metadata(path).map_or(0, |m| m.len())).sum();
+    progress.begin("map", Some(bytes));
+    let data = read_map(&maps, &|count| progress.step(count))?;
     let area = match &scene.area {
         Some(spec) => area(spec)?,
         None => {

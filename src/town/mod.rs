@@ -27,14 +27,21 @@ pub enum TownError {
 }
 
 /// Writes `folder/name.osm` and `folder/name.tif`; the folder is made if it is missing. Files appear whole or not at all.
-pub fn write_town(seed: u64, buildings: u32, folder: &Path, name: &str) -> Result<[PathBuf; 2], TownError> {
+/// `heard` is told of every building.
+pub fn write_town(
+    seed: u64,
+    buildings: u32,
+    folder: &Path,
+    name: &str,
+    heard: &dyn Fn(u64),
+) -> Result<[PathBuf; 2], TownError> {
     if !(1..=1_000_000).contains(&buildings) {
         return Err(TownError::Size(buildings));
     }
     prepare_folder(folder)?;
     let town = Town::new(seed, buildings);
     let (osm, tif) = (folder.join(format!("{name}.osm")), folder.join(format!("{name}.tif")));
-    write::osm(&town, &osm)?;
+    write::osm(&town, &osm, heard)?;
     elevation::geotiff(&town, &tif)?;
     Ok([osm, tif])
 }
@@ -47,8 +54,9 @@ mod tests {
     fn a_town_has_as_many_buildings_as_asked_and_the_same_bytes_every_time() {
         let folder = tempfile::tempdir().expect("a temporary folder can be made");
         for n in [1, 37, 400] {
-            let [osm, tif] = write_town(7, n, &folder.path().join("a"), "t").expect("the town can be written");
-            let [osm2, tif2] = write_town(7, n, &folder.path().join("b"), "t").expect("the town can be written");
+            let [osm, tif] = write_town(7, n, &folder.path().join("a"), "t", &|_| {}).expect("the town can be written");
+            let [osm2, tif2] =
+                write_town(7, n, &folder.path().join("b"), "t", &|_| {}).expect("the town can be written");
             let text = std::fs::read_to_string(&osm).expect("the file was written");
             assert_eq!(text.matches("k=\"building\"").count(), n as usize);
             assert_eq!(text, std::fs::read_to_string(osm2).expect("the file was written"));
@@ -58,7 +66,7 @@ mod tests {
 
     #[test]
     fn sizes_outside_the_range_are_refused() {
-        assert!(matches!(write_town(0, 0, Path::new("/nowhere"), "t"), Err(TownError::Size(0))));
-        assert!(matches!(write_town(0, 1_000_001, Path::new("/nowhere"), "t"), Err(TownError::Size(_))));
+        assert!(matches!(write_town(0, 0, Path::new("/nowhere"), "t", &|_| {}), Err(TownError::Size(0))));
+        assert!(matches!(write_town(0, 1_000_001, Path::new("/nowhere"), "t", &|_| {}), Err(TownError::Size(_))));
     }
 }

@@ -37,11 +37,11 @@ struct Writer<'a> {
 }
 
 /// Writes the town; the file appears under its name only when it is complete.
-pub fn osm(town: &Town, path: &Path) -> Result<(), TownError> {
-    Ok(write(town, path).map_err(|source| output::OutputError::new(path, source))?)
+pub fn osm(town: &Town, path: &Path, heard: &dyn Fn(u64)) -> Result<(), TownError> {
+    Ok(write(town, path, heard).map_err(|source| output::OutputError::new(path, source))?)
 }
 
-fn write(town: &Town, path: &Path) -> std::io::Result<()> {
+fn write(town: &Town, path: &Path, heard: &dyn Fn(u64)) -> std::io::Result<()> {
     let mut writer = Writer {
         town,
         nodes: BufWriter::new(output::aside(path)?),
@@ -60,12 +60,12 @@ fn write(town: &Town, path: &Path) -> std::io::Result<()> {
     writeln!(writer.nodes, " <bounds minlat=\"{s}\" minlon=\"{w}\" maxlat=\"{n}\" maxlon=\"{e}\"/>")?;
     writer.streets()?;
     writer.river()?;
-    writer.blocks()?;
+    writer.blocks(heard)?;
     writer.finish(path)
 }
 
 impl Writer<'_> {
-    fn blocks(&mut self) -> std::io::Result<()> {
+    fn blocks(&mut self, heard: &dyn Fn(u64)) -> std::io::Result<()> {
         let mut left = self.town.buildings;
         for (column, row) in self.town.blocks() {
             let planned = self.town.block_use(column, row);
@@ -76,6 +76,7 @@ impl Writer<'_> {
                         continue;
                     }
                     left -= 1;
+                    heard(1);
                 }
                 self.thing(&thing)?;
             }
@@ -87,6 +88,7 @@ impl Writer<'_> {
                 for thing in lots::block(self.town, column, row, Use::Houses) {
                     if thing.is_building() && left > 0 {
                         left -= 1;
+                        heard(1);
                         self.thing(&thing)?;
                     }
                 }

@@ -34,7 +34,7 @@ impl Workshop {
 
     /// A small town beside the recipe: `town.osm` and `town.tif`.
     pub fn town(&self, buildings: u32) {
-        mansard::town::write_town(3, buildings, self.folder.path(), "town").expect("the folder is writable");
+        mansard::town::write_town(3, buildings, self.folder.path(), "town", &|_| {}).expect("the folder is writable");
     }
 
     /// Runs the program in the folder.

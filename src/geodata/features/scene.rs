@@ -1,11 +1,12 @@
 //! The window on the map. In: area and projection. Out: local coordinates, and what lies inside.
 
+use geo::Centroid;
 use glam::DVec2;
 
 use super::area::{Area, clip_line};
 use crate::geodata::osm::{LonLatBox, OsmData, Position};
 use crate::geometry::boolean::{BooleanError, intersection};
-use crate::geometry::polygon::{ring_contains, signed_area};
+use crate::geometry::polygon::ring_contains;
 use crate::geometry::{Polygon, Ring};
 
 /// Everything that the steps of extraction share.
@@ -96,17 +97,9 @@ impl<'a> Scene<'a> {
 
 /// Centre of gravity of a polygon's surface; the first point if it has none.
 pub fn centroid(polygon: &Polygon) -> DVec2 {
+    // About the first corner, so that a far origin costs no digits; geo's rings close themselves.
     let Some(&origin) = polygon.outer.first() else { return DVec2::ZERO };
-    let (mut sum, mut total) = (DVec2::ZERO, 0.0);
-    for (i, ring) in polygon.rings().enumerate() {
-        // Holes count against the outer ring, whatever their direction.
-        let sign = signed_area(ring).signum() * if i == 0 { 1.0 } else { -1.0 };
-        for (k, &p) in ring.iter().enumerate() {
-            let (a, b) = (p - origin, ring[(k + 1) % ring.len()] - origin);
-            let cross = a.perp_dot(b) * sign;
-            total += cross;
-            sum += (a + b) * cross;
-        }
-    }
-    if total == 0.0 { origin } else { origin + sum / (3.0 * total) }
+    let ring = |r: &Ring| r.iter().map(|p| (*p - origin).to_array()).map(|[x, y]| geo::coord! { x: x, y: y }).collect();
+    let shape = geo::Polygon::new(ring(&polygon.outer), polygon.holes.iter().map(ring).collect());
+    shape.centroid().map_or(origin, |c| origin + DVec2::new(c.x(), c.y()))
 }

@@ -21,7 +21,7 @@ fn make(data: &OsmData, area: Option<LonLatBox>) -> (Vec<Feature>, Ledger) {
 
 fn run(files: &[&str], area: Option<LonLatBox>) -> Option<(Vec<Feature>, Ledger)> {
     let paths: Vec<PathBuf> = files.iter().map(|file| shared(file)).collect::<Option<_>>()?;
-    let data = read_files(&paths).unwrap();
+    let data = read_files(&paths, &|_| {}).unwrap();
     let start = std::time::Instant::now();
     let made = make(&data, area);
     println!("{files:?}: {} features, {} skipped in {:?}", made.0.len(), made.1.skipped, start.elapsed());
@@ -55,7 +55,7 @@ fn the_santa_rosa_window_has_its_buildings() {
             .count(),
         2
     );
-    let data = read_files(&[shared("osm/santa-rosa-ca.osm.gz").unwrap()]).unwrap();
+    let data = read_files(&[shared("osm/santa-rosa-ca.osm.gz").unwrap()], &|_| {}).unwrap();
     let mean_inside = |refs: &[i64]| {
         let corners = &refs[1..];
         let places: Vec<(f64, f64)> = corners.iter().filter_map(|id| data.node(*id)).map(Position::degrees).collect();
@@ -122,7 +122,7 @@ fn windows_of_large_maps_hold_their_buildings() {
 fn the_sea_of_monaco_and_baltimore_is_closed() {
     for (file, least, most) in [("osm/monaco.osm.pbf", 0.1, 0.7), ("osm/baltimore-harbor.osm.pbf", 0.1, 0.7)] {
         let Some(path) = shared(file) else { return };
-        let data = read_files(&[path]).unwrap();
+        let data = read_files(&[path], &|_| {}).unwrap();
         let b = extent(&data).unwrap();
         let (features, _) = make(&data, Some(b));
         let sea: f64 = features.iter().filter(|f| f.tags.get("water").is_some_and(|w| &**w == "sea")).map(area).sum();

@@ -20,15 +20,30 @@ pub use error::{MapError, MapPlace};
 
 use container::Opened;
 
-/// Reads all files into one map; of objects with the same id the one read first stays.
-pub fn read_files(paths: &[PathBuf]) -> Result<OsmData, MapError> {
+/// Reads all files into one map; of objects with the same id the one read first stays. `heard` is told of every run of
+/// bytes that was read.
+pub fn read_files(paths: &[PathBuf], heard: &(dyn Fn(u64) + Sync)) -> Result<OsmData, MapError> {
     let mut builder = OsmBuilder::default();
     for path in paths {
         let name = path.display().to_string();
         let file = std::fs::File::open(path).map_err(|source| MapError::Io { file: name.clone(), source })?;
-        read_stream(file, &name, &mut builder)?;
+        read_stream(Counted { file, heard }, &name, &mut builder)?;
     }
     Ok(builder.finish())
+}
+
+/// A file that tells how much of it was read.
+struct Counted<'a> {
+    file: std::fs::File,
+    heard: &'a (dyn Fn(u64) + Sync),
+}
+
+impl std::io::Read for Counted<'_> {
+    fn read(&mut self, buffer: &mut [u8]) -> std::io::Result<usize> {
+        let count = self.file.read(buffer)?;
+        (self.heard)(count as u64);
+        Ok(count)
+    }
 }
 
 /// Reads one file from any byte stream; `name` is for errors. Gives the format that was found.

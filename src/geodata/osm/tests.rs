@@ -121,7 +121,7 @@ fn every_refusal_names_the_file_and_the_place() {
     }
     let crs = r#"{"crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::32610"}},"features":[]}"#;
     assert!(message(crs.as_bytes()).contains("EPSG::32610"));
-    let missing = read_files(&["/nowhere/map.osm".into()]).unwrap_err();
+    let missing = read_files(&["/nowhere/map.osm".into()], &|_| {}).unwrap_err();
     assert!(matches!(&missing, MapError::Io { file, .. } if file == "/nowhere/map.osm"));
 }
 
@@ -204,7 +204,7 @@ fn the_shared_files_hold_what_their_sources_say() {
     for (file, ways, relations, parts, highways) in COUNTS {
         let Some(path) = shared(&format!("osm/{file}")) else { return };
         let start = std::time::Instant::now();
-        let data = read_files(&[path]).unwrap();
+        let data = read_files(&[path], &|_| {}).unwrap();
         println!("{file}: {} nodes, {} ways in {:?}", data.node_count(), data.ways().len(), start.elapsed());
         let found = counts(&data);
         assert_eq!((found.0, found.1, found.3), (ways, relations, highways), "{file}");
@@ -215,7 +215,7 @@ fn the_shared_files_hold_what_their_sources_say() {
 #[test]
 fn lz4_blobs_hold_the_same_as_zlib_blobs() {
     let (Some(zlib), Some(lz4)) = (shared("osm/monaco.osm.pbf"), shared("hazards/monaco-lz4.osm.pbf")) else { return };
-    let (zlib, lz4) = (read_files(&[zlib]).unwrap(), read_files(&[lz4]).unwrap());
+    let (zlib, lz4) = (read_files(&[zlib], &|_| {}).unwrap(), read_files(&[lz4], &|_| {}).unwrap());
     assert_eq!(zlib.node_count(), lz4.node_count());
     assert_eq!(counts(&zlib), counts(&lz4));
     assert!(
