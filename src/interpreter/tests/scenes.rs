@@ -83,15 +83,3 @@ fn results_leave_as_json_obj_and_text() {
     let text = to_text(&tree);
     assert!(text.starts_with("0 A  #ffffff  4 vertices, 1 faces, box 0 0 -6 … 10 0 0\n"), "{text}");
 }
-
-/// Not a check of speed but a way to measure it: `cargo test --release -- --ignored --nocapture house_speed`.
-#[test]
-#[ignore = "measures"]
-fn house_speed() {
-    let program = compiled(HOUSE);
-    let start = start(ground(SMALL), 0);
-    let rounds = 20_000;
-    let clock = std::time::Instant::now();
-    let leaves: usize = (0..rounds).map(|_| derive(&program, &start, &NoAssets, &Limits::default()).leaves.len()).sum();
-    println!("{} leaves, {:.1} us each", leaves / rounds, clock.elapsed().as_secs_f64() * 1e6 / rounds as f64);
-}
