@@ -8,6 +8,7 @@ mod derivation;
 mod error;
 mod lot;
 mod place;
+mod portrait;
 mod progress;
 mod recipe;
 mod record;
@@ -20,6 +21,7 @@ mod views;
 
 pub use build::{BuiltScene, build_scene};
 pub use error::PipelineError;
+pub use portrait::portrait;
 pub use progress::{Progress, Silent};
 pub use recipe::{Recipe, RecipeOptions, load_recipe};
 pub use render::{RenderOptions, RenderSummary, render_dataset};

@@ -149,6 +149,8 @@ pub enum DeriveFormat {
     Json,
     Glb,
     Obj,
+    /// A picture, 640 × 480
+    Png,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

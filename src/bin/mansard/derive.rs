@@ -10,7 +10,7 @@ use mansard::interpreter::seed::Seed;
 use mansard::interpreter::tree::{Scalar, ShapeTree};
 use mansard::interpreter::{FileAssets, Limits, StartShape, derive, json::to_json, obj::to_obj, text::to_text};
 use mansard::output::write_bytes;
-use mansard::pipeline::single_scene;
+use mansard::pipeline::{portrait, single_scene};
 use mansard::scene::export::to_glb;
 use mansard::source::{Access, SourceMap};
 
@@ -19,12 +19,16 @@ use crate::check::rule_access;
 use crate::footprint;
 use crate::report::{self, Failure};
 
+/// Pixels.
+const PICTURE: (u32, u32) = (640, 480);
+
 pub fn run(args: &DeriveArgs, quiet: bool) -> Result<(), Failure> {
     let mesh = footprint::parse(&args.footprint).map_err(|e| Failure::unable(format!("--footprint: {e}")))?;
     let access = rule_access(&args.rules, &args.allow)?;
     let mut sources = SourceMap::default();
     let (program, mut diagnostics) = cga::compile(&args.rules, &access, &mut sources, &CompileOptions::default());
     let mut tree = ShapeTree::default();
+    let outline = mesh.clone();
     if let Some(program) = &program {
         let attributes = args.attributes.iter().map(|a| attribute(a, program)).collect::<Result<_, _>>()?;
         let start = StartShape { attributes, start_rule: args.start.clone(), ..start(mesh, args.seed) };
@@ -34,7 +38,7 @@ pub fn run(args: &DeriveArgs, quiet: bool) -> Result<(), Failure> {
     tree.diagnostics = diagnostics;
     report::print(&tree.diagnostics, &sources, quiet);
     if program.is_some() || args.format == DeriveFormat::Json {
-        write(&tree, args, &access, &sources)?;
+        write(&tree, &outline, args, &access, &sources)?;
     }
     if tree.diagnostics.has_errors() { Err(Failure::said()) } else { Ok(()) }
 }
@@ -82,7 +86,13 @@ fn attribute(text: &str, program: &Program) -> Result<(Arc<str>, Scalar), Failur
     Ok((name.into(), value))
 }
 
-fn write(tree: &ShapeTree, args: &DeriveArgs, access: &Access, sources: &SourceMap) -> Result<(), Failure> {
+fn write(
+    tree: &ShapeTree,
+    outline: &Mesh,
+    args: &DeriveArgs,
+    access: &Access,
+    sources: &SourceMap,
+) -> Result<(), Failure> {
     let bytes = match args.format {
         DeriveFormat::Tree => to_text(tree).into_bytes(),
         DeriveFormat::Obj => to_obj(tree).into_bytes(),
@@ -94,6 +104,12 @@ fn write(tree: &ShapeTree, args: &DeriveArgs, access: &Access, sources: &SourceM
         DeriveFormat::Glb => {
             let scene = single_scene(tree, access).map_err(|e| report::failure(e, sources))?;
             to_glb(&scene, "").map_err(|e| Failure::unable(e.to_string()))?
+        }
+        DeriveFormat::Png => {
+            let picture = portrait(tree, outline, access, PICTURE).map_err(|e| report::failure(e, sources))?;
+            let mut bytes = std::io::Cursor::new(Vec::new());
+            picture.write_to(&mut bytes, image::ImageFormat::Png).expect("an RGB image in memory is encoded");
+            bytes.into_inner()
         }
     };
     match &args.output {
