@@ -4,6 +4,7 @@
 //! Plan coordinates are (x, y) with y up the page (north), counter-clockwise outlines; space is (x, y, z) with y up.
 
 pub mod boolean;
+pub mod box_tree;
 pub mod cut;
 pub mod extrude;
 pub mod grid;
