@@ -8,13 +8,13 @@ use super::parse::parse;
 use super::program::Program;
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::parsing::decode;
-use crate::source::{Access, SourceMap, Span};
+use crate::source::{Access, MOST_TEXT_BYTES, SourceMap, Span};
 
 /// The tree of one file as nested text, one node per line; imports are not read.
 pub fn dump_ast(path: &Path, access: &Access, sources: &mut SourceMap) -> (Option<String>, Diagnostics) {
     let folder = path.parent().unwrap_or(Path::new(""));
     let name = path.file_name().map(|name| name.to_string_lossy()).unwrap_or_default();
-    match access.read(folder, &name) {
+    match access.read(folder, &name, MOST_TEXT_BYTES) {
         Ok((_, bytes)) => {
             let file = sources.add(path.display().to_string(), decode(&bytes).text);
             let (ast, diagnostics) = parse(&file);

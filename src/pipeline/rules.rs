@@ -7,7 +7,7 @@ use super::shipped;
 use crate::cga;
 use crate::cga::program::Program;
 use crate::diagnostics::{Diagnostic, Diagnostics, suggest};
-use crate::source::{Access, AccessError, SourceMap};
+use crate::source::{Access, AccessError, Project, SourceMap};
 use crate::spec::render_spec::{AttributeSpec, FileRef, LevelEffect, Origin, RenderSpec, RuleAssignment};
 
 /// Compiled rule files by [`key`].
@@ -61,6 +61,7 @@ fn unreadable(file: &FileRef, error: &AccessError) -> Diagnostic {
             let message = format!("cannot read `{}`: {source}", file.written);
             Diagnostic::error("render::missing-file", file.span, message)
         }
+        other => Diagnostic::error("render::missing-file", file.span, format!("cannot read {other}")),
     }
 }
 
@@ -107,7 +108,7 @@ fn compile_file(
                 let mut own = access.clone();
                 if file.origin == Origin::CommandLine
                     && let Some(folder) = path.parent()
-                    && let Err(error) = own.allow(folder)
+                    && let Err(error) = own.allow(Project::of(folder).tree())
                 {
                     diagnostics.push(unreadable(file, &error));
                     return None;

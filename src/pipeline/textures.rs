@@ -19,6 +19,9 @@ use crate::source::Access;
 /// Largest side of a texture file, pixels; keeps a small file from filling the memory.
 const LARGEST_SIDE: u32 = 8192;
 
+/// Larger texture files are refused.
+const MOST_BYTES: u64 = 256 << 20;
+
 /// What loading found besides the images.
 pub struct Loaded {
     /// Texture files by content.
@@ -41,7 +44,7 @@ pub fn load(scene: &mut Scene, access: &Access) -> Result<Loaded, PipelineError>
             }
             continue;
         }
-        match access.read(access.root(), &name) {
+        match access.read(access.root(), &name, MOST_BYTES) {
             Ok((path, bytes)) => {
                 let short: Arc<str> = below(&path, access).into();
                 let hash = sha256(&bytes);

@@ -5,6 +5,8 @@
 
 mod access;
 mod map;
+mod project;
 
-pub use access::{Access, AccessError};
+pub use access::{Access, AccessError, MOST_TEXT_BYTES, read_regular};
 pub use map::{Place, SourceFile, SourceId, SourceMap, Span};
+pub use project::Project;

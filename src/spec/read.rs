@@ -6,7 +6,7 @@ use super::ast::{Block, ExprKind, InputDecl, Name, SpecAst};
 use super::parse::parse;
 use super::render_spec::Origin;
 use crate::diagnostics::{Diagnostic, Diagnostics};
-use crate::source::{Access, SourceId, SourceMap, Span};
+use crate::source::{Access, MOST_TEXT_BYTES, SourceId, SourceMap, Span};
 
 /// Where the paths of each text start.
 #[derive(Debug, Default)]
@@ -72,12 +72,9 @@ pub(super) fn read(path: &str, access: &Access, sources: &mut SourceMap, diagnos
 }
 
 fn text(access: &Access, base: &Path, written: &str) -> Result<(PathBuf, String), String> {
-    let (real, bytes) = access.read(base, written).map_err(|error| error.to_string())?;
+    let (real, bytes) = access.read(base, written, MOST_TEXT_BYTES).map_err(|error| error.to_string())?;
     let text = String::from_utf8(bytes)
         .map_err(|error| format!("{written} is not UTF-8 text: wrong byte at {}", error.utf8_error().valid_up_to()))?;
-    if u32::try_from(text.len()).is_err() {
-        return Err(format!("{written} is larger than 4 GiB"));
-    }
     Ok((real, text))
 }
 

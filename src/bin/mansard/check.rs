@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use mansard::diagnostics::{Diagnostics, json_line};
 use mansard::pipeline::{PipelineError, load_recipe};
-use mansard::source::{Access, SourceMap};
+use mansard::source::{Access, Project, SourceMap};
 use mansard::{cga, spec};
 
 use crate::args::{Format, RecipeOptions};
@@ -64,13 +64,13 @@ fn check_recipe(file: &Path, options: &RecipeOptions, sources: &mut SourceMap) -
     }
 }
 
-/// A rule file may read from its own folder tree and from what the command line allows.
+/// A rule file may read from its project and from what the command line allows.
 pub fn rule_access(file: &Path, allow: &[PathBuf]) -> Result<Access, Failure> {
     if !file.is_file() {
         return Err(Failure::wrong(format!("{}: no such file", file.display())));
     }
     let folder = file.parent().unwrap_or(Path::new("."));
-    let mut access = Access::new(folder).map_err(|e| Failure::wrong(e.to_string()))?;
+    let mut access = Access::new(Project::of(folder).tree()).map_err(|e| Failure::wrong(e.to_string()))?;
     for tree in allow {
         access.allow(tree).map_err(|e| Failure::wrong(e.to_string()))?;
     }

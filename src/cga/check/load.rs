@@ -8,7 +8,7 @@ use crate::cga::codes;
 use crate::cga::parse::parse;
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::parsing::decode;
-use crate::source::{Access, AccessError, SourceFile, SourceMap, Span};
+use crate::source::{Access, AccessError, MOST_TEXT_BYTES, Project, SourceFile, SourceMap, Span, read_regular};
 
 /// A parsed file.
 pub struct LoadedFile {
@@ -51,7 +51,7 @@ impl<'s> Loader<'s> {
     pub fn main_file(&mut self, path: &Path, access: &Access) {
         let folder = path.parent().unwrap_or(Path::new(""));
         let name = path.file_name().map(|name| name.to_string_lossy()).unwrap_or_default();
-        match access.read(folder, &name) {
+        match access.read(folder, &name, MOST_TEXT_BYTES) {
             Ok((real, bytes)) => {
                 self.file(real, &path.display().to_string(), &bytes);
             }
@@ -109,12 +109,12 @@ impl<'s> Loader<'s> {
             self.diagnostics.push(Diagnostic::error(codes::IMPORT_OUTSIDE, import.path.span, message));
             return None;
         };
-        let path = match resolve(access, folder, &import.path.text) {
+        let path = match Project::of(folder).find(access, &import.path.text) {
             Ok(path) => path,
             Err(error) => {
                 let code = match error {
                     AccessError::Outside(_) => codes::IMPORT_OUTSIDE,
-                    AccessError::Io { .. } => codes::UNREADABLE_FILE,
+                    _ => codes::UNREADABLE_FILE,
                 };
                 self.diagnostics.push(Diagnostic::error(code, import.path.span, error.to_string()));
                 return None;
@@ -128,41 +128,16 @@ impl<'s> Loader<'s> {
             }
             return Some(known);
         }
-        match std::fs::read(&path) {
+        match read_regular(&path, MOST_TEXT_BYTES) {
             Ok(bytes) => {
                 let name = path.strip_prefix(access.root()).unwrap_or(&path).display().to_string();
                 Some(self.file(path, &name, &bytes))
             }
             Err(error) => {
-                let message = format!("{}: {error}", import.path.text);
+                let message = error.to_string();
                 self.diagnostics.push(Diagnostic::error(codes::UNREADABLE_FILE, import.path.span, message));
                 None
             }
         }
     }
-}
-
-/// A path is looked for from the importing file, its project (the folder above, and `assets` in it) and the
-/// workspace; one that starts with `/` from the workspace only, with or without the project's own name in front.
-fn resolve(access: &Access, folder: &Path, named: &str) -> Result<PathBuf, AccessError> {
-    let root = access.root();
-    let Some(absolute) = named.strip_prefix('/') else {
-        let places = [folder.to_owned(), folder.join(".."), folder.join("../assets"), root.to_owned()];
-        return first(access, &places, named);
-    };
-    let below_project = absolute.split_once('/').map_or(absolute, |(_, rest)| rest);
-    let root = [root.to_owned()];
-    first(access, &root, absolute).or_else(|error| first(access, &root, below_project).or(Err(error)))
-}
-
-/// The path in the first folder that has it, else the first folder's error.
-fn first(access: &Access, folders: &[PathBuf], named: &str) -> Result<PathBuf, AccessError> {
-    let mut failure = None;
-    for folder in folders {
-        match access.resolve(folder, named) {
-            Ok(path) => return Ok(path),
-            Err(error) => failure = failure.or(Some(error)),
-        }
-    }
-    Err(failure.expect("there is at least one folder"))
 }

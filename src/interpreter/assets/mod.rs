@@ -96,7 +96,7 @@ impl FileAssets {
                 Ok(path) if path.is_file() => return Ok(path),
                 Ok(_) => {}
                 Err(AccessError::Outside(path)) => refused = Some(path),
-                Err(AccessError::Io { .. }) => {}
+                Err(_) => {}
             }
         }
         Err(match refused {
@@ -115,7 +115,7 @@ impl FileAssets {
         let extension = path.extension().and_then(|e| e.to_str()).unwrap_or("").to_ascii_lowercase();
         let form = match extension.as_str() {
             "obj" => {
-                let library = |file: &str| self.access.read(folder, file).ok().map(|(_, bytes)| bytes);
+                let library = |file: &str| self.access.read(folder, file, MOST_BYTES).ok().map(|(_, bytes)| bytes);
                 obj::read(name, &bytes, folder, &library)?
             }
             "gltf" | "glb" => gltf_file::read(name, &bytes, folder, &self.access)?,
