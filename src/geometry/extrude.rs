@@ -6,6 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use glam::{DVec2, DVec3};
 
+use super::mesh::UvSets;
 use super::plane::unit;
 use super::transform::flip_face;
 use super::{Face, Mesh};
@@ -133,6 +134,7 @@ fn extrude_group(mesh: &Mesh, group: &[usize], direction: Direction, distance: f
             outer: source.outer.iter().map(|v| bottom_of[v] + lift).collect(),
             holes: source.holes.iter().map(|h| h.iter().map(|v| bottom_of[v] + lift).collect()).collect(),
             uvs: source.uvs.clone(),
+            normals: Vec::new(),
         };
         push(moved(0), Role::Bottom, None, !body_behind);
         push(moved(rise), Role::Top, None, body_behind);
@@ -143,17 +145,17 @@ fn extrude_group(mesh: &Mesh, group: &[usize], direction: Direction, distance: f
             let (i, j) = (bottom_of[&a], bottom_of[&b]);
             let role = if edge < source.outer.len() { Role::SideOuter } else { Role::SideInner };
             let uvs = side_uvs(source, edge);
-            let side = Face { outer: vec![i, j, j + rise, i + rise], holes: Vec::new(), uvs };
+            let side = Face { uvs, ..Face::new([i, j, j + rise, i + rise]) };
             push(side, role, Some(edge as u32), body_behind);
         }
     }
 }
 
 /// The uv of both ends of a face-edge, at the bottom and again at the top.
-fn side_uvs(source: &Face, edge: usize) -> Vec<(u8, Vec<DVec2>)> {
+fn side_uvs(source: &Face, edge: usize) -> UvSets {
     let next = next_corner(source, edge);
-    let ends = |uv: &Vec<DVec2>| Some((*uv.get(edge)?, *uv.get(next)?));
-    source.uvs.iter().filter_map(|(set, uv)| ends(uv).map(|(a, b)| (*set, vec![a, b, b, a]))).collect()
+    let ends = |uv: &[DVec2]| Some((*uv.get(edge)?, *uv.get(next)?));
+    source.uvs.iter().filter_map(|(set, uv)| ends(uv).map(|(a, b)| (*set, [a, b, b, a].into()))).collect()
 }
 
 /// The corner after this one in its own loop.

@@ -3,17 +3,29 @@
 use std::collections::BTreeMap;
 
 use glam::{DVec2, DVec3};
+use smallvec::SmallVec;
 
 use super::plane::unit;
+
+/// Vertex indices of one loop; quads need no allocation.
+pub type Loop = SmallVec<[u32; 4]>;
+
+/// Texture coordinates of a face's corners in one set: the outer loop first, then the holes.
+pub type CornerUvs = SmallVec<[DVec2; 4]>;
+
+/// Texture coordinates per uv set, sorted by set.
+pub type UvSets = SmallVec<[(u8, CornerUvs); 1]>;
 
 /// One planar face. Loops index [`Mesh::positions`]; the outer loop is counter-clockwise seen from outside,
 /// hole loops run the other way. The first edge runs from corner 0 to corner 1.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Face {
-    pub outer: Vec<u32>,
-    pub holes: Vec<Vec<u32>>,
-    /// Texture coordinates per uv set, sorted by set: one value per corner, the outer loop first, then the holes.
-    pub uvs: Vec<(u8, Vec<DVec2>)>,
+    pub outer: Loop,
+    pub holes: Vec<Loop>,
+    /// One value per corner and set, the outer loop first, then the holes.
+    pub uvs: UvSets,
+    /// Unit normals per corner in the same order; empty where the face is shaded flat.
+    pub normals: Vec<DVec3>,
 }
 
 /// A polygon mesh in metres.
@@ -24,13 +36,22 @@ pub struct Mesh {
 }
 
 impl Face {
-    pub fn new(outer: Vec<u32>) -> Self {
-        Face { outer, ..Face::default() }
+    pub fn new(outer: impl Into<Loop>) -> Self {
+        Face { outer: outer.into(), ..Face::default() }
+    }
+
+    /// With loops around holes.
+    pub fn with_holes(outer: impl Into<Loop>, holes: impl IntoIterator<Item: Into<Loop>>) -> Self {
+        Face { outer: outer.into(), holes: holes.into_iter().map(Into::into).collect(), ..Face::default() }
     }
 
     /// Outer loop, then holes.
-    pub fn loops(&self) -> impl Iterator<Item = &Vec<u32>> {
-        std::iter::once(&self.outer).chain(&self.holes)
+    pub fn loops(&self) -> impl Iterator<Item = &[u32]> {
+        std::iter::once(&self.outer).chain(&self.holes).map(|l| &l[..])
+    }
+
+    pub fn loops_mut(&mut self) -> impl Iterator<Item = &mut [u32]> {
+        std::iter::once(&mut self.outer).chain(&mut self.holes).map(|l| &mut l[..])
     }
 
     /// Vertex indices of all corners: the outer loop, then the holes.
@@ -94,8 +115,7 @@ impl Mesh {
             })
             .collect();
         for face in &mut out.faces {
-            let loops = std::iter::once(&mut face.outer).chain(&mut face.holes);
-            loops.flatten().for_each(|c| *c = place_of[*c as usize]);
+            face.loops_mut().flatten().for_each(|c| *c = place_of[*c as usize]);
         }
         out
     }

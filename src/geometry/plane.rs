@@ -2,6 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
+use super::mesh::Loop;
 use super::{Face, Mesh, Polygon};
 
 /// The vector at length 1, exact if it lies along an axis; `None` if it has no direction (zero or not finite).
@@ -95,20 +96,20 @@ impl PlaneFrame {
 
     /// The face's loops in plan coordinates; the outer ring is counter-clockwise if this is the face's own frame.
     pub fn face_to_plan(&self, mesh: &Mesh, face: &Face) -> Polygon {
-        let ring = |l: &Vec<u32>| l.iter().map(|&i| self.to_plan(mesh.positions[i as usize])).collect();
-        Polygon { outer: ring(&face.outer), holes: face.holes.iter().map(ring).collect() }
+        let ring = |l: &[u32]| l.iter().map(|&i| self.to_plan(mesh.positions[i as usize])).collect();
+        Polygon { outer: ring(&face.outer), holes: face.holes.iter().map(|h| ring(h)).collect() }
     }
 
     /// Appends a plan polygon as one face at `height` in front of the plane; vertices are the rings in order.
     pub fn push_face(&self, mesh: &mut Mesh, polygon: &Polygon, height: f64) {
-        let mut add = |ring: &[DVec2]| -> Vec<u32> {
+        let mut add = |ring: &[DVec2]| -> Loop {
             let start = mesh.positions.len() as u32;
             mesh.positions.extend(ring.iter().map(|&q| self.to_space(q, height)));
             (start..start + ring.len() as u32).collect()
         };
         let outer = add(&polygon.outer);
         let holes = polygon.holes.iter().map(|h| add(h)).collect();
-        mesh.faces.push(Face { outer, holes, uvs: Vec::new() });
+        mesh.faces.push(Face { outer, holes, ..Face::default() });
     }
 }
 

@@ -4,10 +4,11 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 use super::appearance::Appearance;
 use crate::geometry::Mesh;
+use crate::geometry::transform::normals_under;
 
 /// The geometry of a shape, shared until it is changed. Positions are in the world as they were when it was made.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -34,6 +35,15 @@ impl Form {
         self.mesh.positions.is_empty()
     }
 
+    /// Takes the faces' corner normals along under a linear map of the positions.
+    pub fn turn_corner_normals(&mut self, map: DMat3) {
+        if self.mesh.faces.iter().any(|f| !f.normals.is_empty()) {
+            let turn = normals_under(map);
+            let normals = self.mesh.faces.iter_mut().flat_map(|f| &mut f.normals);
+            normals.for_each(|n| *n = (turn * *n).normalize_or(*n));
+        }
+    }
+
     /// The material index of a face: 0 for none.
     pub fn face_material(&self, face: usize) -> u16 {
         self.face_materials.get(face).copied().unwrap_or(0)
@@ -58,7 +68,7 @@ impl Form {
 
 /// Copies the named faces with the vertices they use, numbered in the order the faces run through them.
 fn submesh(mesh: &Mesh, faces: &[usize]) -> Mesh {
-    let corners = faces.iter().map(|&f| mesh.faces[f].loops().map(Vec::len).sum::<usize>()).sum::<usize>();
+    let corners = faces.iter().map(|&f| mesh.faces[f].corners().count()).sum::<usize>();
     let most = corners.min(mesh.positions.len());
     let mut out = Mesh { positions: Vec::with_capacity(most), faces: Vec::with_capacity(faces.len()) };
     let mut places = Renumbering::for_at_most(most);

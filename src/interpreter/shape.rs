@@ -99,13 +99,17 @@ impl Shape {
     /// World position of a stored position.
     fn moved(&self, p: DVec3) -> DVec3 {
         let q = self.binding.frame.local_from_world(p);
+        self.scope.frame.world_from_local(q * self.growth())
+    }
+
+    /// Factors from the stored sizes to those of now.
+    fn growth(&self) -> DVec3 {
         let factor = |now: f64, then: f64| if then == 0.0 || now == then { 1.0 } else { now / then };
-        let k = DVec3::new(
+        DVec3::new(
             factor(self.scope.size.x, self.binding.size.x),
             factor(self.scope.size.y, self.binding.size.y),
             factor(self.scope.size.z, self.binding.size.z),
-        );
-        self.scope.frame.world_from_local(q * k)
+        )
     }
 
     /// The form with world positions, without changing the shape.
@@ -117,6 +121,8 @@ impl Shape {
         form.mesh.positions.iter_mut().for_each(|p| *p = self.moved(*p));
         let turn = self.scope.frame.axes * self.binding.frame.axes.transpose();
         form.normals.iter_mut().for_each(|n| *n = turn * *n);
+        let stretch = DMat3::from_diagonal(self.growth());
+        form.turn_corner_normals(self.scope.frame.axes * stretch * self.binding.frame.axes.transpose());
         Arc::new(form)
     }
 

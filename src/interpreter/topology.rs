@@ -40,7 +40,7 @@ const FEW: usize = 24;
 
 impl Topology {
     pub fn of(mesh: &Mesh) -> Topology {
-        let uses = mesh.faces.iter().flat_map(|face| face.loops()).map(Vec::len).sum();
+        let uses = mesh.faces.iter().flat_map(|face| face.loops()).map(<[u32]>::len).sum();
         let mut out = Topology {
             edges: Vec::with_capacity(uses),
             edge_of_face_edge: Vec::with_capacity(uses),

@@ -7,6 +7,7 @@ use crate::geodata::feature::{Feature, FeatureClass, Outline};
 use crate::geodata::features::ribbon::{Cap, ribbon};
 use crate::geodata::tags::road_width;
 use crate::geodata::terrain::Terrain;
+use crate::geometry::mesh::Loop;
 use crate::geometry::{Face, Mesh, Polygon};
 use crate::interpreter::tree::Leaf;
 use crate::scene::ground::Surface;
@@ -92,11 +93,11 @@ fn mesh(polygons: &[Polygon], base: f64) -> Mesh {
         let mut rings = polygon.rings().map(|ring| {
             let first = mesh.positions.len() as u32;
             mesh.positions.extend(ring.iter().map(|p| DVec3::new(p.x, base, -p.y)));
-            (first..first + ring.len() as u32).collect::<Vec<u32>>()
+            (first..first + ring.len() as u32).collect::<Loop>()
         });
         let outer = rings.next().expect("a polygon has an outer ring");
         let holes = rings.collect();
-        mesh.faces.push(Face { outer, holes, uvs: Vec::new() });
+        mesh.faces.push(Face { outer, holes, ..Face::default() });
     }
     mesh
 }

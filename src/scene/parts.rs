@@ -131,8 +131,8 @@ fn flat_face(mesh: &Mesh, face: &Face, material: &Arc<Material>, (priority, surf
         let p = mesh.positions[*i as usize];
         DVec2::new(p.x, -p.z)
     };
-    let ring = |r: &Vec<u32>| r.iter().map(plan).collect::<Vec<_>>();
-    let polygon = Polygon { outer: ring(&face.outer), holes: face.holes.iter().map(ring).collect() };
+    let ring = |r: &[u32]| r.iter().map(plan).collect::<Vec<_>>();
+    let polygon = Polygon { outer: ring(&face.outer), holes: face.holes.iter().map(|h| ring(h)).collect() };
     let corners: Vec<DVec2> = polygon.rings().flatten().copied().collect();
     let uv = face.uv(0).and_then(|uvs| PlanUv::through(&corners, uvs)).unwrap_or(PlanUv::tiles(1.0));
     FlatFace { polygon, material: material.clone(), uv, priority, surface }
@@ -167,8 +167,8 @@ mod tests {
 
     fn leaf(points: &[[f64; 3]], uvs: Vec<DVec2>) -> Leaf {
         let outer: Vec<u32> = (0..points.len() as u32).collect();
-        let uvs = if uvs.is_empty() { Vec::new() } else { vec![(0, uvs)] };
-        let face = Face { outer, holes: Vec::new(), uvs };
+        let uvs = if uvs.is_empty() { None } else { Some((0, uvs.into())) }.into_iter().collect();
+        let face = Face { uvs, ..Face::new(outer) };
         Leaf {
             rule: "A".into(),
             path: Vec::new().into(),

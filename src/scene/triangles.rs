@@ -74,7 +74,7 @@ mod tests {
     fn a_face_with_a_hole_becomes_triangles_of_its_area() {
         let square = |s: f64| [(-s, -s), (s, -s), (s, s), (-s, s)].map(|(x, z)| DVec3::new(x, 0.0, z));
         let mesh = Mesh { positions: square(2.0).into_iter().chain(square(1.0)).collect(), faces: Vec::new() };
-        let face = Face { outer: vec![3, 2, 1, 0], holes: vec![vec![4, 5, 6, 7]], uvs: Vec::new() };
+        let face = Face::with_holes([3, 2, 1, 0], [[4, 5, 6, 7]]);
         let mut builder = Builder::default();
         let material = Arc::new(Material::default());
         builder.face(&mesh, &face, &material, DVec3::new(0.0, 5.0, 0.0));

@@ -21,7 +21,7 @@ pub fn parse(text: &str) -> Result<Mesh, String> {
     }
     let holes = loops.split_off(1);
     let outer = loops.remove(0);
-    Ok(Mesh { positions, faces: vec![Face { outer, holes, uvs: Vec::new() }] })
+    Ok(Mesh { positions, faces: vec![Face::with_holes(outer, holes)] })
 }
 
 fn point(corner: &str) -> Option<DVec3> {
@@ -38,7 +38,7 @@ mod tests {
     fn rings_and_mistakes() {
         let mesh = parse("0,0 10,0 10,-8 0,-8; 2,-2 2,-4 4,-4").expect("two rings");
         assert_eq!(mesh.positions.len(), 7);
-        assert_eq!(mesh.faces[0].holes, [[4, 5, 6]]);
+        assert_eq!(mesh.faces[0].holes[0][..], [4, 5, 6]);
         assert_eq!(mesh.positions[2], DVec3::new(10.0, 0.0, -8.0));
         assert_eq!(parse("0,0 1,1").unwrap_err(), "the outline has 2 corners, at least 3 are needed");
         assert!(parse("0,0 1,x 2,2").unwrap_err().contains("`1,x`"));

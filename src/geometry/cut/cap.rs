@@ -141,7 +141,7 @@ fn nest(loops: Vec<Vec<u32>>, plan: impl Fn(u32) -> DVec2) -> Vec<Face> {
         let around = |outline: &[DVec2]| plan.iter().filter(|&&q| ring_contains(outline, q)).count() * 2 > plan.len();
         let candidates = (0..caps.len()).filter(|&i| around(&outlines[i].1));
         if let Some(home) = candidates.min_by(|&i, &j| outlines[i].0.total_cmp(&outlines[j].0)) {
-            caps[home].holes.push(ring);
+            caps[home].holes.push(ring.into());
         }
     }
     caps

@@ -53,6 +53,18 @@ pub(super) fn corner_uv(uv: &[DVec2], corner: &Corner) -> DVec2 {
     uv[from] + (uv[to] - uv[from]) * share
 }
 
+/// The normals of corners of a part, if the source has one per corner.
+pub(super) fn corner_normals<'c>(source: &Face, count: usize, corners: impl Iterator<Item = &'c Corner>) -> Vec<DVec3> {
+    if source.normals.len() != count {
+        return Vec::new();
+    }
+    let mixed = |&Corner { from: (from, to, share), .. }: &Corner| {
+        let (a, b) = (source.normals[from], source.normals[to]);
+        if share == 0.0 { a } else { (a + (b - a) * share).normalize_or(a) }
+    };
+    corners.map(mixed).collect()
+}
+
 /// The boundary of a face with the cut points put in, so that no edge runs from one side to the other.
 pub(super) struct CutFace<'a> {
     source: &'a Face,
@@ -180,6 +192,7 @@ impl<'a> CutFace<'a> {
             outer: indices(&loops[0]),
             holes: loops[1..].iter().map(indices).collect(),
             uvs: complete.map(|(set, uv)| (*set, loops.iter().flatten().map(|c| corner_uv(uv, c)).collect())).collect(),
+            normals: corner_normals(self.source, corners, loops.iter().flatten()),
         }
     }
 }

@@ -3,7 +3,7 @@
 
 use glam::DVec3;
 
-use super::face::{Corner, Side, corner_uv, start_with_first_edge};
+use super::face::{Corner, Side, corner_normals, corner_uv, start_with_first_edge};
 use super::{Cut, Piece, cut_point};
 use crate::geometry::{Face, Mesh, Plane};
 
@@ -98,6 +98,7 @@ fn part(piece: &Piece, face: &Face, ring: &[Place], (start, length): (usize, usi
         outer: corners.iter().map(place).collect(),
         holes: Vec::new(),
         uvs: complete.map(|(set, uv)| (*set, corners.iter().map(|c| corner_uv(uv, c)).collect())).collect(),
+        normals: corner_normals(face, face.outer.len(), corners.iter()),
     };
     let positions = used.iter().map(|(_, p)| *p).collect();
     Piece { mesh: Mesh { positions, faces: vec![face] }, origins: piece.origins.clone() }
@@ -110,6 +111,7 @@ mod tests {
 
     use super::*;
     use crate::geometry::cut::{Origin, cut_any};
+    use crate::geometry::mesh::Loop;
 
     /// A face with these corners in plan, turned into space, with a vertex nobody uses and texture coordinates.
     fn piece(corners: &[(f64, f64)], first: usize) -> Piece {
@@ -118,9 +120,10 @@ mod tests {
         positions.extend(corners.iter().map(|&(x, y)| turn * DVec3::new(x, y, 3.0)));
         let n = corners.len();
         let outer = (0..n).map(|i| ((i + first) % n) as u32 + 1).collect();
-        let uvs = vec![(0, (0..n).map(|i| DVec2::new(i as f64, -(i as f64) * 0.3)).collect())];
+        let uvs = [(0, (0..n).map(|i| DVec2::new(i as f64, -(i as f64) * 0.3)).collect())].into();
+        let normals = (0..n).map(|i| (turn * DVec3::new(0.1 * i as f64, 0.0, 1.0)).normalize()).collect();
         Piece {
-            mesh: Mesh { positions, faces: vec![Face { outer, holes: Vec::new(), uvs }] },
+            mesh: Mesh { positions, faces: vec![Face { outer, holes: Vec::new(), uvs, normals }] },
             origins: vec![Origin::Face(4)],
         }
     }
@@ -181,7 +184,7 @@ mod tests {
         let l = [(0.0, 0.0), (12.0, 0.0), (12.0, 5.0), (6.0, 5.0), (6.0, 9.0), (0.0, 9.0)];
         let positions = l.map(|(x, y)| DVec3::new(x, 0.0, -y)).to_vec();
         for first in 0..6u32 {
-            let face = Face::new((0..6).map(|i| (i + first) % 6).collect());
+            let face = Face::new((0..6).map(|i| (i + first) % 6).collect::<Loop>());
             let mesh = Mesh { positions: positions.clone(), faces: vec![face] };
             let piece = Piece { mesh, origins: vec![Origin::Face(0)] };
             let cuts = |normal, offset| compare(&piece, &Plane { normal, offset });

@@ -131,7 +131,7 @@ fn uvs_are_interpolated_and_caps_have_none() {
         .iter()
         .map(|f| f.corners().map(|c| mesh.positions[c as usize]).map(|p| DVec2::new(p.x + p.y, p.z)).collect())
         .collect();
-    mesh.faces.iter_mut().zip(uvs).for_each(|(f, uv)| f.uvs.push((0, uv)));
+    mesh.faces.iter_mut().zip(uvs).for_each(|(f, uv)| f.uvs.push((0, uv.into())));
     let normal = DVec3::new(0.4, 0.1, 0.8).normalize();
     let cut = cut(&mesh, &plane(normal, normal.dot(DVec3::new(5.0, 2.0, -5.0))));
     for piece in [&cut.behind, &cut.front] {

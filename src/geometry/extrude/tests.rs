@@ -57,7 +57,7 @@ fn downwards_the_faces_still_point_outwards() {
     let out = extrude(&lot(&square_ring()), Direction::FaceNormal, -2.5).expect("has area");
     assert!(is_closed(&out.mesh));
     assert!((volume(&out.mesh) - 84.0 * 2.5).abs() < 1e-9);
-    assert_eq!(out.mesh.faces[0].outer, [0, 1, 2, 3]);
+    assert_eq!(out.mesh.faces[0].outer[..], [0, 1, 2, 3]);
     assert_eq!(out.mesh.positions[8].y, -2.5);
 }
 

@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::{Roof, RoofPart, RoofWarning};
-use crate::geometry::mesh::{Face, Mesh};
+use crate::geometry::mesh::{Face, Loop, Mesh};
 use crate::geometry::polygon::Polygon;
 use crate::geometry::skeleton::Skeleton;
 
@@ -73,7 +73,7 @@ impl PlanRoof {
         for face in std::iter::once(&bottom).chain(&self.faces) {
             let mut loops = std::iter::once(&face.ring).chain(&face.holes).map(|ring| {
                 let place = |&id: &u32| number_of(&mut number, &mut roof.mesh, &self.nodes, id);
-                ring.iter().map(place).collect::<Vec<u32>>()
+                ring.iter().map(place).collect::<Loop>()
             });
             let outer = loops.next().unwrap_or_default();
             let holes = loops.collect();

@@ -116,7 +116,7 @@ fn faces_of_every_direction_turn_with_their_normal() {
             let u = normal.any_orthogonal_vector().normalize();
             let v = normal.cross(u).normalize();
             let positions = plan.iter().map(|p| u * p.x + v * p.y).collect();
-            let mesh = Mesh { positions, faces: vec![Face::new((0..5).collect())] };
+            let mesh = Mesh { positions, faces: vec![Face::new(Vec::from_iter(0..5))] };
             let sum: DVec3 = triangles(&mesh).map(|(_, [a, b, c])| (b - a).cross(c - a) / 2.0).sum();
             assert!(sum.distance(normal.normalize() * signed_area(&plan)) < 1e-12);
             assert_eq!(triangles(&mesh).count(), 3);

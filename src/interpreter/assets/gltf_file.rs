@@ -92,9 +92,9 @@ impl Reader<'_> {
         let uvs = uvs.filter(|uv| uv.len() == count as usize);
         self.has_uvs &= uvs.is_some();
         for corners in triangles(primitive.mode(), &indices) {
-            let outer = corners.map(|i| i + start).to_vec();
-            let set = uvs.as_ref().map(|uv| (0, corners.map(|i| uv[i as usize]).to_vec()));
-            self.form.mesh.faces.push(Face { outer, holes: Vec::new(), uvs: set.into_iter().collect() });
+            let outer = corners.map(|i| i + start);
+            let set = uvs.as_ref().map(|uv| (0, corners.map(|i| uv[i as usize]).as_slice().into()));
+            self.form.mesh.faces.push(Face { uvs: set.into_iter().collect(), ..Face::new(outer.as_slice()) });
             self.form.face_materials.push(material);
         }
         Ok(())

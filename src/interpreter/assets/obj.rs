@@ -11,6 +11,7 @@ use glam::{DVec2, DVec3};
 
 use super::AssetError;
 use crate::geometry::Face;
+use crate::geometry::mesh::{CornerUvs, Loop, UvSets};
 use crate::interpreter::appearance::Appearance;
 use crate::interpreter::form::Form;
 
@@ -78,8 +79,8 @@ impl Reader<'_> {
     }
 
     fn face(&mut self, rest: &str, line: usize) -> Result<(), AssetError> {
-        let mut outer = Vec::new();
-        let mut uv = Vec::new();
+        let mut outer = Loop::new();
+        let mut uv = CornerUvs::new();
         for corner in rest.split_whitespace() {
             let mut parts = corner.split('/');
             let position = parts.next().unwrap_or("");
@@ -91,8 +92,8 @@ impl Reader<'_> {
         if outer.len() < 3 {
             return Err(self.error(line, "a face needs three corners"));
         }
-        let uvs = if uv.len() == outer.len() { vec![(0, uv)] } else { Vec::new() };
-        self.form.mesh.faces.push(Face { outer, holes: Vec::new(), uvs });
+        let uvs = if uv.len() == outer.len() { [(0, uv)].into() } else { UvSets::new() };
+        self.form.mesh.faces.push(Face { uvs, ..Face::new(outer) });
         self.form.face_materials.push(self.current);
         Ok(())
     }
@@ -163,7 +164,7 @@ mod tests {
             "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\nvt 0 0\nusemtl red\nf 1/1 2/1 3/1\nf -4/-1 -2/1 -1/1\n",
         );
         let form = form.expect("the file is sound");
-        assert_eq!(form.mesh.faces[1].outer, [0, 2, 3]);
+        assert_eq!(form.mesh.faces[1].outer[..], [0, 2, 3]);
         assert_eq!(form.face_materials, [1, 1]);
         assert_eq!(form.materials[0].color, [Some(1.0), Some(0.0), Some(0.0)]);
         assert_eq!(form.materials[0].opacity, Some(0.5));

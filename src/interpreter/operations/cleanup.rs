@@ -56,6 +56,7 @@ pub fn delete_holes(shape: &mut Shape) {
         let corners = face.outer.len();
         face.holes.clear();
         face.uvs.iter_mut().for_each(|(_, uv)| uv.truncate(corners));
+        face.normals.truncate(corners);
     }
 }
 
@@ -107,6 +108,8 @@ fn remove_corners(face: &mut Face, test: impl Fn(&[u32], usize) -> bool) {
         let mut flags = keep.iter();
         uv.retain(|_| *flags.next().unwrap_or(&true));
     }
+    let mut flags = keep.iter();
+    face.normals.retain(|_| *flags.next().unwrap_or(&true));
 }
 
 /// Drops corners where every face that has the vertex runs straight on, except the ends of first edges.
@@ -129,7 +132,7 @@ fn drop_straight_corners(mesh: &mut Mesh, angle: f64) {
     }
 }
 
-/// Joins neighbouring faces without texture coordinates and holes that lie in one plane and share one stretch of edge.
+/// Joins neighbouring faces without texture coordinates, normals and holes that lie in one plane and share one stretch of edge.
 fn dissolve_edges(mesh: &mut Mesh, angle: f64) {
     let least = libm::cos(angle.to_radians());
     let mut f = 0;
@@ -153,9 +156,10 @@ fn dissolve_edges(mesh: &mut Mesh, angle: f64) {
     }
 }
 
-/// One loop around both faces; `None` if they share more than one stretch, or carry holes or texture coordinates.
+/// One loop around both faces; `None` if they share more than one stretch, or carry more than corners.
 fn join(a: &Face, b: &Face) -> Option<Face> {
-    if !(a.holes.is_empty() && b.holes.is_empty() && a.uvs.is_empty() && b.uvs.is_empty()) {
+    let is_bare = |f: &Face| f.holes.is_empty() && f.uvs.is_empty() && f.normals.is_empty();
+    if !is_bare(a) || !is_bare(b) {
         return None;
     }
     let (n, m) = (a.outer.len(), b.outer.len());

@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 use super::super::assets::Asset;
 use super::super::derivation::Derivation;
@@ -47,6 +47,7 @@ pub fn apply(run: &mut Derivation, args: &Args, shape: &mut Shape) -> Outcome<()
 fn z_up(asset: &Asset) -> Asset {
     let mut form = asset.form.clone();
     form.mesh.positions.iter_mut().for_each(|p| *p = DVec3::new(p.x, p.z, -p.y));
+    form.mesh.faces.iter_mut().flat_map(|f| &mut f.normals).for_each(|n| *n = DVec3::new(n.x, n.z, -n.y));
     Asset::new(form)
 }
 
@@ -88,5 +89,6 @@ pub fn fit(shape: &mut Shape, asset: &Asset) {
     let frame = shape.scope.frame;
     let mut form: Form = asset.form.clone();
     form.mesh.positions.iter_mut().for_each(|p| *p = frame.world_from_local((*p - c) * factor));
+    form.turn_corner_normals(frame.axes * DMat3::from_diagonal(factor));
     shape.replace_in_scope(form);
 }

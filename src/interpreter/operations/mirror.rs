@@ -7,7 +7,7 @@ use glam::DVec3;
 
 use super::super::shape::Shape;
 use super::args::Args;
-use crate::geometry::transform::flip_face;
+use crate::geometry::transform::turn_loops;
 
 fn flags(args: &Args) -> [bool; 3] {
     [args.bool(0), args.bool(1), args.bool(2)]
@@ -40,8 +40,17 @@ pub fn geometry(args: &Args, shape: &mut Shape) {
         }
         *p = scope.frame.world_from_local(q);
     }
+    for n in form.mesh.faces.iter_mut().flat_map(|f| &mut f.normals) {
+        let mut q = scope.frame.local_direction(*n);
+        for i in 0..3 {
+            if flags[i] {
+                q[i] = -q[i];
+            }
+        }
+        *n = scope.frame.axes * q;
+    }
     if flags.iter().filter(|f| **f).count() % 2 == 1 {
-        form.mesh.faces.iter_mut().for_each(flip_face);
+        form.mesh.faces.iter_mut().for_each(turn_loops);
     }
     form.instanced = false;
 }

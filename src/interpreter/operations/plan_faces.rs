@@ -6,6 +6,7 @@ use std::collections::BTreeMap;
 use glam::{DAffine2, DMat2, DVec2, DVec3};
 
 use super::super::form::Form;
+use crate::geometry::mesh::Loop;
 use crate::geometry::transform::flip_face;
 use crate::geometry::{Face, Mesh, PlaneFrame, Polygon};
 
@@ -42,7 +43,7 @@ impl<'a> PlanFaces<'a> {
         let holes = polygon.holes.iter().map(|hole| self.ring(source, hole)).collect();
         let corner = || polygon.rings().flatten();
         let uvs = source.uvs.iter().map(|(set, map)| (*set, corner().map(|p| map.transform_point2(*p)).collect()));
-        self.mesh.faces.push(Face { outer, holes, uvs: uvs.collect() });
+        self.mesh.faces.push(Face { outer, holes, uvs: uvs.collect(), normals: Vec::new() });
         self.sources.push(Some(source.number as u32));
     }
 
@@ -54,7 +55,7 @@ impl<'a> PlanFaces<'a> {
         }
     }
 
-    fn ring(&mut self, source: &SourceFace, ring: &[DVec2]) -> Vec<u32> {
+    fn ring(&mut self, source: &SourceFace, ring: &[DVec2]) -> Loop {
         ring.iter().map(|&p| self.vertex(source.frame.to_space(p, 0.0))).collect()
     }
 

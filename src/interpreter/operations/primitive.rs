@@ -9,6 +9,7 @@ use super::super::placement::sin_cos_degrees;
 use super::super::shape::Shape;
 use super::args::Args;
 use super::insert::fit;
+use crate::geometry::mesh::{CornerUvs, Loop};
 use crate::geometry::{Face, Mesh};
 
 /// Sides, corners, divisions of round primitives are kept to this many.
@@ -77,7 +78,7 @@ pub fn quad(run: &mut Derivation, args: &Args, shape: &mut Shape) {
     });
     let mut mesh = Mesh::default();
     mesh.positions.extend([DVec3::Z, DVec3::new(1.0, 0.0, 1.0), DVec3::X, DVec3::ZERO]);
-    mesh.faces.push(textured(vec![0, 1, 2, 3], UNIT_UV.to_vec()));
+    mesh.faces.push(textured([0, 1, 2, 3], UNIT_UV));
     place(shape, Form::from_mesh(mesh), size);
 }
 
@@ -100,8 +101,8 @@ pub fn cylinder(run: &mut Derivation, args: &Args, shape: &mut Shape) {
     mesh.faces.extend([bottom, top]);
     for i in 0..n {
         let (j, u0, u1) = ((i + 1) % n, around(i, n), around(i + 1, n));
-        let uv = vec![DVec2::new(u0, 0.0), DVec2::new(u1, 0.0), DVec2::new(u1, 1.0), DVec2::new(u0, 1.0)];
-        mesh.faces.push(textured(vec![i, j, j + n, i + n], uv));
+        let uv = [DVec2::new(u0, 0.0), DVec2::new(u1, 0.0), DVec2::new(u1, 1.0), DVec2::new(u0, 1.0)];
+        mesh.faces.push(textured([i, j, j + n, i + n], uv));
     }
     place_round(shape, mesh, radius, height);
 }
@@ -116,7 +117,7 @@ pub fn cone(run: &mut Derivation, args: &Args, shape: &mut Shape) {
     for i in 0..n {
         let (u0, u1) = (around(i, n), around(i + 1, n));
         let uv = vec![DVec2::new(u0, 0.0), DVec2::new(u1, 0.0), DVec2::new((u0 + u1) / 2.0, 1.0)];
-        mesh.faces.push(textured(vec![i, (i + 1) % n, n], uv));
+        mesh.faces.push(textured([i, (i + 1) % n, n].as_slice(), uv));
     }
     place_round(shape, mesh, radius, height);
 }
@@ -147,8 +148,8 @@ pub fn sphere(run: &mut Derivation, args: &Args, shape: &mut Shape) {
             let mut corners =
                 vec![(at(k, i), u0, v0), (at(k, i + 1), u1, v0), (at(k + 1, i + 1), u1, v1), (at(k + 1, i), u0, v1)];
             corners.dedup_by_key(|c| c.0);
-            let uv = corners.iter().map(|c| DVec2::new(c.1, c.2)).collect();
-            mesh.faces.push(textured(corners.iter().map(|c| c.0).collect(), uv));
+            let uv: CornerUvs = corners.iter().map(|c| DVec2::new(c.1, c.2)).collect();
+            mesh.faces.push(textured(corners.iter().map(|c| c.0).collect::<Loop>(), uv));
         }
     }
     place_round(shape, mesh, radius, 2.0 * radius.unwrap_or(1.0).abs());
@@ -166,8 +167,8 @@ fn place_round(shape: &mut Shape, mesh: Mesh, radius: Option<f64>, height: f64) 
 
 const UNIT_UV: [DVec2; 4] = [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y];
 
-fn textured(outer: Vec<u32>, uv: Vec<DVec2>) -> Face {
-    Face { outer, holes: Vec::new(), uvs: vec![(0, uv)] }
+fn textured(outer: impl Into<Loop>, uv: impl Into<CornerUvs>) -> Face {
+    Face { uvs: [(0, uv.into())].into(), ..Face::new(outer) }
 }
 
 fn around(i: u32, n: u32) -> f64 {
@@ -189,7 +190,7 @@ fn cap(outer: Vec<u32>, mesh: &Mesh) -> Face {
         let p = mesh.positions[v as usize];
         DVec2::new((p.x + 1.0) / 2.0, (1.0 - p.z) / 2.0)
     };
-    let uv = outer.iter().map(uv).collect();
+    let uv: CornerUvs = outer.iter().map(uv).collect();
     textured(outer, uv)
 }
 
@@ -200,7 +201,7 @@ pub fn unit_cube() -> Form {
         DVec3::new(x, f64::from(i / 4), z)
     };
     let faces = [[3, 2, 1, 0], [2, 3, 7, 6], [3, 0, 4, 7], [1, 2, 6, 5], [4, 5, 6, 7], [0, 1, 5, 4]];
-    let faces = faces.into_iter().map(|f| textured(f.to_vec(), UNIT_UV.to_vec())).collect();
+    let faces = faces.into_iter().map(|f| textured(f, UNIT_UV)).collect();
     let mesh = Mesh { positions: (0..8).map(corner).collect(), faces };
     Form { instanced: true, ..Form::from_mesh(mesh) }
 }

@@ -13,6 +13,7 @@ use super::super::shape::Shape;
 use super::args::Args;
 use crate::cga::builtins::Word;
 use crate::cga::program::Prefix;
+use crate::geometry::mesh::{CornerUvs, UvSets};
 
 /// First and second axis, and whether they are the world's.
 fn axes(word: Option<Word>) -> (usize, usize, bool) {
@@ -83,12 +84,12 @@ pub fn project(run: &mut Derivation, args: &Args, shape: &mut Shape) {
     let form = Arc::make_mut(&mut shape.form);
     let Form { mesh, .. } = form;
     for face in &mut mesh.faces {
-        let uv: Vec<DVec2> = face.corners().map(|v| projection.uv(mesh.positions[v as usize])).collect();
+        let uv: CornerUvs = face.corners().map(|v| projection.uv(mesh.positions[v as usize])).collect();
         put(&mut face.uvs, set, uv);
     }
 }
 
-fn put(uvs: &mut Vec<(u8, Vec<DVec2>)>, set: u8, uv: Vec<DVec2>) {
+fn put(uvs: &mut UvSets, set: u8, uv: CornerUvs) {
     match uvs.binary_search_by_key(&set, |(s, _)| *s) {
         Ok(place) => uvs[place].1 = uv,
         Err(place) => uvs.insert(place, (set, uv)),
@@ -128,7 +129,7 @@ pub fn copy(run: &mut Derivation, args: &Args, shape: &mut Shape) {
     let (Some(from), Some(to)) = (args.uv_set(run, 0), args.uv_set(run, 1)) else { return };
     let form = Arc::make_mut(&mut shape.form);
     for face in &mut form.mesh.faces {
-        if let Some(uv) = face.uv(from).map(<[DVec2]>::to_vec) {
+        if let Some(uv) = face.uv(from).map(CornerUvs::from) {
             put(&mut face.uvs, to, uv);
         }
     }
