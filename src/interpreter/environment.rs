@@ -10,13 +10,23 @@ use super::shape::Shape;
 use super::value::Value;
 use crate::cga::program::DrawSite;
 
-/// The component a selector is asked about.
-#[derive(Clone, Copy, Debug, Default)]
+/// A component a selector is asked about; groups and materials are asked about each of their faces.
+#[derive(Clone, Copy, Debug)]
 pub struct Facet {
+    pub place: Place,
     /// World direction that orientation words judge (reference 3.5).
     pub direction: DVec3,
     pub is_border: bool,
     pub roof_edge: Option<RoofEdge>,
+}
+
+/// Where a component is in the mesh it was taken from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    Face(u32),
+    /// By its vertices.
+    Edge([u32; 2]),
+    Vertex(u32),
 }
 
 /// Roof edges of reference 3.6.
@@ -37,7 +47,8 @@ pub struct Env<'e> {
     salt: Seed,
     /// Function calls made so far from here.
     calls: Cell<u64>,
-    pub component: Option<&'e Facet>,
+    /// Not empty: what the current component is made of, in `outer`.
+    pub component: Option<&'e [Facet]>,
     /// What selectors without a component (such as `geometry.area(top)`) are judged from.
     pub outer: Option<&'e Shape>,
 }
@@ -48,9 +59,9 @@ impl<'e> Env<'e> {
     }
 
     /// The same declaration on a component of the shape.
-    pub fn on_component<'c>(&'c self, shape: &'c Shape, outer: &'c Shape, facet: &'c Facet) -> Env<'c> {
+    pub fn on_component<'c>(&'c self, shape: &'c Shape, outer: &'c Shape, facets: &'c [Facet]) -> Env<'c> {
         let (salt, slots) = (self.salt, self.slots);
-        Env { shape, slots, salt, calls: Cell::new(0), component: Some(facet), outer: Some(outer) }
+        Env { shape, slots, salt, calls: Cell::new(0), component: Some(facets), outer: Some(outer) }
     }
 
     /// A function called from here, with its own slots.

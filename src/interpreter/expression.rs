@@ -166,7 +166,7 @@ impl<'p> Derivation<'p> {
     /// Whether the current component, or the current shape's faces, match a selector word.
     fn matches(&mut self, word: Word, env: &Env) -> bool {
         match (env.component, env.outer) {
-            (Some(facet), Some(outer)) => facet_matches(word, facet, outer, &self.object),
+            (Some(facets), Some(outer)) => facets.iter().any(|f| facet_matches(word, f, outer, &self.object)),
             _ => false,
         }
     }

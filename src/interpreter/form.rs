@@ -7,6 +7,7 @@ use std::sync::Arc;
 use glam::{DMat3, DVec3};
 
 use super::appearance::Appearance;
+use super::labels::Labels;
 use crate::geometry::Mesh;
 use crate::geometry::transform::normals_under;
 
@@ -22,6 +23,8 @@ pub struct Form {
     /// Index into `materials` plus one per face, 0 for none; empty where no face has a material of its own.
     pub face_materials: Vec<u16>,
     pub materials: Arc<[Appearance]>,
+    /// Groups and tags, where there are any.
+    pub labels: Option<Box<Labels>>,
     /// An inserted asset as it came (`geometry.isInstanced`).
     pub instanced: bool,
 }
@@ -51,12 +54,17 @@ impl Form {
 
     /// A form of this one's materials over new faces; `sources` names the face each new face came from.
     pub fn derived(&self, mesh: Mesh, sources: impl Iterator<Item = Option<u32>>) -> Form {
+        if self.face_materials.is_empty() && self.labels.is_none() {
+            return Form { mesh, materials: self.materials.clone(), ..Form::default() };
+        }
+        let sources: Vec<Option<u32>> = sources.collect();
         let face_materials = if self.face_materials.is_empty() {
             Vec::new()
         } else {
-            sources.map(|source| source.map_or(0, |f| self.face_material(f as usize))).collect()
+            sources.iter().map(|source| source.map_or(0, |f| self.face_material(f as usize))).collect()
         };
-        Form { mesh, face_materials, materials: self.materials.clone(), ..Form::default() }
+        let labels = self.labels.as_ref().map(|labels| Box::new(labels.carried(&self.mesh, &mesh, &sources)));
+        Form { mesh, face_materials, materials: self.materials.clone(), labels, ..Form::default() }
     }
 
     /// The faces with these indices, with only the vertices they use, in their old order.

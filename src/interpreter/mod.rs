@@ -16,6 +16,7 @@ mod expression;
 mod form;
 mod functions;
 pub mod json;
+mod labels;
 mod leaves;
 pub mod limits;
 pub mod material;

@@ -1,5 +1,6 @@
 //! Rule texts derived end to end: the worked micro-tests of reference 10 and the facts of the compatibility notes.
 
+mod components;
 mod expressions;
 mod frames;
 mod limits;
@@ -11,6 +12,7 @@ mod scenes;
 mod selectors;
 mod splits;
 mod surfaces;
+mod tags;
 mod transforms;
 
 use std::sync::Arc;

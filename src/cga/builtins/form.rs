@@ -31,10 +31,10 @@ forms! {
     CompEdges "comp(e)" Evaluated
     CompFaceEdges "comp(fe)" Evaluated
     CompVertices "comp(v)" Evaluated
-    CompFaceVertices "comp(fv)" NotYet
-    CompGroups "comp(g)" NotYet
-    CompMaterials "comp(m)" NotYet
-    CompHoles "comp(h)" NotYet
+    CompFaceVertices "comp(fv)" Evaluated
+    CompGroups "comp(g)" Evaluated
+    CompMaterials "comp(m)" Evaluated
+    CompHoles "comp(h)" Evaluated
     CompConnected "the selector operator `=:`" Evaluated
     CompKeepAxes "comp(..., noAlign)" Evaluated
     CompFunction "the comp function" Evaluated

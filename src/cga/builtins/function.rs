@@ -89,10 +89,10 @@ functions! {
     GeometryBoundaryLength "geometry.boundaryLength" Evaluated ["-> F"]
     GeometryDu "geometry.du" Evaluated ["F {uvSpace unitSpace} -> F"]
     GeometryDv "geometry.dv" Evaluated ["F {uvSpace unitSpace} -> F"]
-    GeometryGroups "geometry.groups" NotYet ["-> S[]"]
-    GeometryMaterials "geometry.materials" NotYet ["-> S[]"]
-    GeometryHasTags "geometry.hasTags" NotYet ["S? {all faces edges vertices}? -> B"]
-    GeometryTags "geometry.tags" NotYet ["S? {all faces edges vertices}? -> S[]"]
+    GeometryGroups "geometry.groups" Evaluated ["-> S[]"]
+    GeometryMaterials "geometry.materials" Evaluated ["-> S[]"]
+    GeometryHasTags "geometry.hasTags" Evaluated ["S? {all faces edges vertices}? -> B"]
+    GeometryTags "geometry.tags" Evaluated ["S? {all faces edges vertices}? -> S[]"]
     GeometryHasUvs "geometry.hasUVs" Evaluated ["F? -> B"]
     GeometryHeight "geometry.height" Evaluated ["-> F"]
     GeometryIsClosedSurface "geometry.isClosedSurface" Evaluated ["-> B"]
@@ -110,7 +110,7 @@ functions! {
     GeometryUMax "geometry.uMax" Evaluated ["F? -> F"]
     GeometryVMin "geometry.vMin" Evaluated ["F? -> F"]
     GeometryVMax "geometry.vMax" Evaluated ["F? -> F"]
-    IsTagged "isTagged" NotYet ["S {e v}? -> B"]
+    IsTagged "isTagged" Evaluated ["S {e v}? -> B"]
     GetMaterial "getMaterial" NotYet ["{used shape geometry} {changed all} -> S[]"]
     ReadMaterial "readMaterial" NotYet ["S -> S[]"]
     FileExists "fileExists" Evaluated ["S -> B"]
@@ -200,6 +200,11 @@ impl Function {
             "uid" => Some(Function::GetTreeKey),
             _ => None,
         }
+    }
+
+    /// Whether the result depends on tags.
+    pub fn observes_tags(self) -> bool {
+        matches!(self, Function::IsTagged | Function::GeometryTags | Function::GeometryHasTags)
     }
 
     /// Whether a call draws random numbers.

@@ -48,7 +48,7 @@ operations! {
     Convexify "convexify" NotYet ["F?"]
     CopyUv "copyUV" Evaluated ["F F"]
     DeleteHoles "deleteHoles" Evaluated [""]
-    DeleteTags "deleteTags" NotYet ["S? {all faces edges vertices}?"]
+    DeleteTags "deleteTags" Evaluated ["S? {all faces edges vertices}?"]
     DeleteUv "deleteUV" Evaluated ["F"]
     Envelope "envelope" NotYet [
         "{normal world.up} F F F", "{normal world.up} F F F F F", "{normal world.up} F F F F F F F",
@@ -124,7 +124,7 @@ operations! {
     SplitArea "splitArea" NotYet ["{x y z} {adjust noAdjust}?"]
     Subtract "subtract" NotYet [""]
     T "t" Evaluated ["F' F' F'"]
-    Tag "tag" NotYet ["S {auto faces edges vertices}?"]
+    Tag "tag" Evaluated ["S {auto faces edges vertices}?"]
     Taper "taper" NotYet ["F"]
     Texture "texture" Evaluated ["S"]
     TileUv "tileUV" Evaluated ["F F~ F~"]
@@ -143,6 +143,11 @@ impl Operation {
             "bakeUV" => Some(Operation::ProjectUv),
             _ => None,
         }
+    }
+
+    /// Whether the result depends on tags.
+    pub fn observes_tags(self) -> bool {
+        self == Operation::CleanupGeometry
     }
 
     /// Whether the operation counts as creating or discarding shapes, so that no anonymous leaf follows

@@ -32,6 +32,9 @@ struct Misfit {
 impl Body<'_, '_> {
     pub fn builtin_function(&mut self, function: Function, args: &[Argument], span: Span) -> Expr {
         self.status(function.status(), &format!("`{}`", function.name()), span);
+        if function.observes_tags() {
+            self.tables.observes_tags.set(true);
+        }
         let (args, result) = self.overload(function.name(), function.signatures(), args, span);
         let site = function.draws().then(|| self.draw());
         Expr { kind: ExprKind::Builtin { function, args, site }, value: result, span }

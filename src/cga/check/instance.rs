@@ -2,6 +2,7 @@
 //!
 //! An *instance* is one import of one file: it has its own rules and attributes, named with its prefix.
 
+use std::cell::Cell;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -85,6 +86,8 @@ pub struct Tables<'a> {
     /// For attributes that the importing attribute itself reads: the imported file's own default.
     pub own_defaults: BTreeMap<AttributeId, AttributeId>,
     pub diagnostics: Diagnostics,
+    /// See [`crate::cga::program::Program::observes_tags`]; set while bodies are resolved.
+    pub observes_tags: Cell<bool>,
 }
 
 /// One definition that is in force, and the style it came from (0 is the default style).
@@ -104,6 +107,7 @@ impl<'a> Tables<'a> {
             attributes: Vec::new(),
             own_defaults: BTreeMap::new(),
             diagnostics: Diagnostics::default(),
+            observes_tags: Cell::new(false),
         }
     }
 

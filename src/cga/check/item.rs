@@ -133,6 +133,9 @@ impl Body<'_, '_> {
     /// The arguments of an operation, its status checked.
     fn block_arguments(&mut self, operation: Operation, given: &[Argument], span: Span) -> Vec<Arg> {
         self.status(operation.status(), &format!("`{}`", operation.name()), span);
+        if operation.observes_tags() {
+            self.tables.observes_tags.set(true);
+        }
         self.overload(operation.name(), operation.signatures(), given, span).0
     }
 

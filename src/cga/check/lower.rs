@@ -107,7 +107,8 @@ fn bodies(tables: &Tables<'_>, types: &Types, diagnostics: &mut Diagnostics) -> 
     let start_rules = rules.iter().enumerate().filter(|(id, r)| r.is_start && tables.rules[*id].scope == 0);
     let start_rules = start_rules.map(|(id, _)| RuleId(id as u32)).collect();
     let files = tables.files.iter().map(|f| RuleFile { source: f.ast.source, folder: f.folder.clone() }).collect();
-    Program { rules, functions, attributes, initial_order: Vec::new(), start_rules, files }
+    let observes_tags = tables.observes_tags.get();
+    Program { rules, functions, attributes, initial_order: Vec::new(), start_rules, files, observes_tags }
 }
 
 fn rule(tables: &Tables<'_>, types: &Types, id: usize, diagnostics: &mut Diagnostics) -> program::Rule {

@@ -42,6 +42,7 @@ pub struct Program {
     pub(in crate::cga) initial_order: Vec<AttributeId>,
     pub(in crate::cga) start_rules: Vec<RuleId>,
     pub(in crate::cga) files: Vec<RuleFile>,
+    pub(in crate::cga) observes_tags: bool,
 }
 
 /// One text of the program; asset paths written in it are relative to `folder`.
@@ -195,6 +196,11 @@ impl Program {
     /// The attribute a host names.
     pub fn attribute_named(&self, name: &str) -> Option<AttributeId> {
         self.attributes.iter().position(|a| &*a.name == name && !a.is_const).map(|i| AttributeId(i as u32))
+    }
+
+    /// Whether anything in the program can tell if a component has a tag. Where nothing can, none are made.
+    pub fn observes_tags(&self) -> bool {
+        self.observes_tags
     }
 
     /// The texts the program was made of; the first is the main file.

@@ -8,6 +8,7 @@ mod convert;
 mod geometry;
 mod list;
 mod math;
+mod tags;
 mod text;
 
 use std::sync::Arc;
@@ -95,6 +96,7 @@ pub fn call(
         other => {
             let value = math::call(other, &input)
                 .or_else(|| geometry::call(run, other, &input, env.shape))
+                .or_else(|| tags::call(other, &input, env))
                 .or_else(|| color::call(other, &input))
                 .or_else(|| array::call(other, &input))
                 .or_else(|| text::call(other, &input))

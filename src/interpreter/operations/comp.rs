@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use super::super::derivation::Derivation;
-use super::super::environment::{Env, Facet};
+use super::super::environment::Env;
 use super::super::expression::facet_matches;
 use super::super::limits::Outcome;
 use super::super::shape::Shape;
@@ -83,7 +83,8 @@ pub fn assign<'p>(
             }
             ExprKind::Selector(word) => {
                 for (i, owner) in owners.iter_mut().enumerate() {
-                    if owner.is_none() && facet_matches(*word, components.facet(i), parent, &run.object) {
+                    let facets = components.facets(i);
+                    if owner.is_none() && facets.iter().any(|f| facet_matches(*word, f, parent, &run.object)) {
                         *owner = Some(number);
                     }
                 }
@@ -118,7 +119,7 @@ fn holds<'p>(
     shape.lineage.comp_index = i as f64;
     shape.lineage.comp_total = components.len() as f64;
     shape.seed = parent.seed.part(COMPONENT + i as u64);
-    let value = run.eval(selector.test, &env.on_component(&shape, parent, components.facet(i)))?;
+    let value = run.eval(selector.test, &env.on_component(&shape, parent, components.facets(i)))?;
     Ok(match value {
         Value::Float(index) => by_index(index, components.len()) == Some(i),
         other => other.to_bool(),
@@ -168,8 +169,8 @@ pub fn values<'p>(
             shape.lineage.comp_index = index as f64;
             shape.lineage.comp_total = total;
             shape.seed = parent.seed.part(COMPONENT + group[0] as u64);
-            let facet: &Facet = components.facet(group[0]);
-            let value = run.eval(&selector.value, &env.on_component(&shape, &parent, facet))?;
+            let facets = components.facets(group[0]);
+            let value = run.eval(&selector.value, &env.on_component(&shape, &parent, facets))?;
             group.iter().for_each(|&i| values[i] = Some(value.clone()));
         }
     }

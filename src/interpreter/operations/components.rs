@@ -6,61 +6,73 @@ use std::sync::Arc;
 
 use glam::{DMat3, DVec3};
 
-use super::super::environment::{Facet, RoofEdge};
+use super::super::environment::{Facet, Place};
 use super::super::form::Form;
 use super::super::placement::{Frame, perpendicular};
 use super::super::shape::{Scope, Shape};
-use super::super::topology::{Topology, edge_normal, used_vertices, vertex_normals};
-use super::roof_edges;
+use super::component_list as list;
 use crate::cga::program::Component;
-use crate::geometry::Mesh;
+use crate::geometry::transform::flip_face;
+use crate::geometry::{Face, Mesh};
 
 pub struct Components {
     kind: Component,
     keep_axes: bool,
     parts: Vec<Part>,
+    facets: Vec<Facet>,
 }
 
-struct Part {
-    facet: Facet,
-    /// Face of a face or face edge.
-    face: u32,
-    /// Ends of an edge; a vertex twice.
-    ends: [u32; 2],
-    /// z axis of the frame.
-    normal: DVec3,
+/// One component.
+pub struct Part {
+    /// Its facets begin here; they end where the next part's begin.
+    pub facets: u32,
+    /// Ends of an edge; a vertex twice; for a hole its face and its number there.
+    pub ends: [u32; 2],
+    /// Position of the frame.
+    pub origin: DVec3,
+    /// What the x axis follows; zero where it follows the parent's.
+    pub along: DVec3,
+    /// z axis of the frame; zero for none.
+    pub normal: DVec3,
 }
 
 impl Components {
-    /// All components in index order (reference 3.4); none for kinds that are not evaluated yet.
+    /// All components in index order (reference 3.4).
     pub fn of(shape: &Shape, kind: Component, keep_axes: bool, roof_edges: bool) -> Components {
-        let mesh = &shape.form.mesh;
-        let parts = match kind {
-            Component::Faces => faces(mesh),
-            Component::Edges => edges(shape, roof_edges),
-            Component::FaceEdges => face_edges(mesh),
-            Component::Vertices => vertices(mesh),
-            Component::FaceVertices | Component::Groups | Component::Materials | Component::Holes => Vec::new(),
+        let form = &*shape.form;
+        let bare = form.mesh.faces.is_empty();
+        let (parts, facets) = match kind {
+            Component::Faces => list::faces(&form.mesh),
+            Component::Edges | Component::FaceEdges if bare => list::bare_edges(form),
+            Component::Vertices | Component::FaceVertices if bare => list::bare_vertices(form, kind),
+            Component::Edges => list::edges(shape, roof_edges),
+            Component::FaceEdges => list::face_edges(&form.mesh),
+            Component::Vertices => list::vertices(&form.mesh),
+            Component::FaceVertices => list::face_vertices(&form.mesh),
+            Component::Groups => list::sets(&form.mesh, |f| form.group(f)),
+            Component::Materials => list::sets(&form.mesh, |f| form.face_material(f)),
+            Component::Holes => list::holes(&form.mesh),
         };
-        Components { kind, keep_axes, parts }
+        Components { kind, keep_axes, parts, facets }
     }
 
     pub fn len(&self) -> usize {
         self.parts.len()
     }
 
-    pub fn facet(&self, i: usize) -> &Facet {
-        &self.parts[i].facet
+    /// What one component is made of: itself, or the faces of a group or material. Never empty.
+    pub fn facets(&self, i: usize) -> &[Facet] {
+        let end = self.parts.get(i + 1).map_or(self.facets.len(), |next| next.facets as usize);
+        &self.facets[self.parts[i].facets as usize..end]
     }
 
     /// The shape of some components: the frame of the first, fitted to all. `group` is not empty.
     pub fn shape(&self, parent: &Shape, group: &[usize]) -> Shape {
-        let mesh = &parent.form.mesh;
-        let first = &self.parts[group[0]];
         let form = self.form(parent, group);
         let mut shape = parent.clone();
-        if !self.keep_axes {
-            let frame = self.frame(mesh, first, parent.scope.frame.axes);
+        // Groups and materials stay in the parent's frame.
+        if !self.keep_axes && !matches!(self.kind, Component::Groups | Component::Materials) {
+            let frame = self.frame(&self.parts[group[0]], parent.scope.frame.axes);
             shape.pivot = frame;
             shape.scope = Scope { frame, size: DVec3::ZERO };
         }
@@ -71,46 +83,94 @@ impl Components {
     }
 
     fn form(&self, parent: &Shape, group: &[usize]) -> Form {
-        if self.kind == Component::Faces {
-            let faces: Vec<usize> = group.iter().map(|&i| self.parts[i].face as usize).collect();
-            return parent.form.part(&faces);
+        match self.kind {
+            Component::Faces | Component::Groups | Component::Materials => {
+                let facets = group.iter().flat_map(|&i| self.facets(i));
+                let faces: Vec<usize> = facets.filter_map(face_of).collect();
+                parent.form.part(&faces)
+            }
+            Component::Holes => self.filled(&parent.form, group),
+            _ => self.bare(&parent.form, group),
         }
+    }
+
+    /// Edges or points; those that met before meet again.
+    fn bare(&self, parent: &Form, group: &[usize]) -> Form {
         let mut form = Form::default();
+        let mut places: BTreeMap<u32, u32> = BTreeMap::new();
         for &i in group {
             let part = &self.parts[i];
-            let start = form.mesh.positions.len() as u32;
-            let [a, b] = part.ends.map(|v| parent.form.mesh.positions[v as usize]);
-            form.mesh.positions.push(a);
-            if self.kind != Component::Vertices {
-                form.mesh.positions.push(b);
-                form.edges.push([start, start + 1]);
+            let mut place = |v: u32| {
+                *places.entry(v).or_insert_with(|| {
+                    form.mesh.positions.push(parent.mesh.positions[v as usize]);
+                    form.mesh.positions.len() as u32 - 1
+                })
+            };
+            let ends = part.ends.map(&mut place);
+            match self.kind {
+                Component::Vertices => form.normals.push(part.normal),
+                // Corners of different faces are points of their own.
+                Component::FaceVertices => {
+                    places.clear();
+                    form.normals.push(part.normal);
+                }
+                _ => {
+                    form.edges.push(ends);
+                    form.normals.push(part.normal);
+                }
             }
-            form.normals.push(part.normal);
+            if let Some(tags) = parent.tags().filter(|tags| !tags.is_empty()) {
+                let own = form.tags_mut();
+                part.ends.iter().zip(ends).for_each(|(&old, new)| own.extend_vertex(new, tags.vertex(old)));
+                if ends[0] != ends[1] {
+                    own.extend_edge(ends, tags.edge(part.ends));
+                }
+            }
         }
         form
     }
 
-    fn frame(&self, mesh: &Mesh, part: &Part, parent_axes: DMat3) -> Frame {
-        let origin = mesh.positions[part.ends[0] as usize];
-        let along = mesh.positions[part.ends[1] as usize] - origin;
-        let (x, z) = match self.kind {
-            Component::Faces => {
-                let z = if part.normal == DVec3::ZERO { DVec3::Y } else { part.normal };
-                (perpendicular(z, along, DVec3::X), z)
-            }
-            Component::Vertices => {
-                let z = if part.normal == DVec3::ZERO { DVec3::Y } else { part.normal };
-                (perpendicular(z, parent_axes.x_axis, parent_axes.z_axis), z)
-            }
-            _ => {
-                let x = along.try_normalize().unwrap_or(DVec3::X);
-                (x, perpendicular(x, part.normal, DVec3::Y))
-            }
-        };
-        Frame::new(origin, x, z.cross(x), z)
+    /// Holes as faces.
+    fn filled(&self, parent: &Form, group: &[usize]) -> Form {
+        let mut mesh = Mesh { positions: parent.mesh.positions.clone(), faces: Vec::with_capacity(group.len()) };
+        let mut sources = Vec::with_capacity(group.len());
+        for &i in group {
+            let [face, hole] = self.parts[i].ends;
+            let source = &parent.mesh.faces[face as usize];
+            let before: usize = source.loops().take(hole as usize + 1).map(|l| l.len()).sum();
+            let ring = &source.holes[hole as usize];
+            let own = |uv: &[glam::DVec2]| uv.get(before..before + ring.len()).map(<[_]>::to_vec);
+            let mut filled = Face::new(ring.clone());
+            filled.uvs = source.uvs.iter().filter_map(|(set, uv)| Some((*set, own(uv)?.into()))).collect();
+            flip_face(&mut filled);
+            mesh.faces.push(filled);
+            sources.push(Some(face));
+        }
+        let all: Vec<usize> = (0..group.len()).collect();
+        parent.derived(mesh, sources.into_iter()).part(&all)
     }
 
-    /// Sets of members that hang together, by lowest index: faces by shared edges, others by shared vertices.
+    fn frame(&self, part: &Part, parent_axes: DMat3) -> Frame {
+        let known = |v: DVec3, other: DVec3| if v == DVec3::ZERO { other } else { v };
+        let (x, z) = match self.kind {
+            Component::Edges | Component::FaceEdges | Component::FaceVertices if part.along != DVec3::ZERO => {
+                let x = part.along.normalize_or(DVec3::X);
+                (x, perpendicular(x, part.normal, DVec3::Y))
+            }
+            Component::Faces | Component::Holes => {
+                let z = known(part.normal, DVec3::Y);
+                (perpendicular(z, part.along, DVec3::X), z)
+            }
+            _ => {
+                let z = known(part.normal, DVec3::Y);
+                (perpendicular(z, parent_axes.x_axis, parent_axes.z_axis), z)
+            }
+        };
+        Frame::new(part.origin, x, z.cross(x), z)
+    }
+
+    /// Sets of members that hang together, by lowest index: what has faces by shared edges, the rest by shared
+    /// vertices.
     pub fn connected(&self, parent: &Shape, members: &[usize]) -> Vec<Vec<usize>> {
         let mut root: Vec<usize> = (0..members.len()).collect();
         fn find(root: &[usize], mut i: usize) -> usize {
@@ -136,71 +196,27 @@ impl Components {
 
     /// What another component must have too to hang on this one.
     fn links(&self, mesh: &Mesh, i: usize) -> Vec<(u32, u32)> {
-        let part = &self.parts[i];
-        if self.kind == Component::Faces {
-            return mesh.faces[part.face as usize].edges().map(|(a, b)| (a.min(b), a.max(b))).collect();
-        }
-        part.ends.iter().map(|&v| (v, v)).collect()
-    }
-}
-
-fn faces(mesh: &Mesh) -> Vec<Part> {
-    let topology = Topology::of(mesh);
-    let part = |(f, face): (usize, &crate::geometry::Face)| {
-        let normal = mesh.normal(face);
-        let ends = [face.outer.first(), face.outer.get(1).or(face.outer.first())].map(|v| v.copied().unwrap_or(0));
-        let facet = Facet { direction: normal, is_border: topology.is_border_face(f), roof_edge: None };
-        Part { facet, face: f as u32, ends, normal }
-    };
-    mesh.faces.iter().enumerate().filter(|(_, face)| !face.outer.is_empty()).map(part).collect()
-}
-
-fn edges(shape: &Shape, wanted: bool) -> Vec<Part> {
-    let mesh = &shape.form.mesh;
-    let topology = Topology::of(mesh);
-    let up = if wanted { roof_edges::up(shape) } else { shape.scope.frame.axes.y_axis };
-    let kinds: Vec<Option<RoofEdge>> =
-        if wanted { roof_edges::classify(shape, &topology) } else { vec![None; topology.edges.len()] };
-    let part = |(edge, kind): (&super::super::topology::Edge, &Option<RoofEdge>)| {
-        let normal = edge_normal(mesh, edge);
-        let facet = Facet { direction: normal, is_border: edge.is_border(), roof_edge: *kind };
-        let (from, to) = (mesh.positions[edge.from as usize], mesh.positions[edge.to as usize]);
-        let downwards = up.dot(to) < up.dot(from);
-        let turned = downwards && matches!(kind, Some(RoofEdge::Hip | RoofEdge::Valley | RoofEdge::Ridge));
-        let ends = if turned { [edge.to, edge.from] } else { [edge.from, edge.to] };
-        Part { facet, face: edge.first, ends, normal }
-    };
-    topology.edges.iter().zip(&kinds).map(part).collect()
-}
-
-fn face_edges(mesh: &Mesh) -> Vec<Part> {
-    let topology = Topology::of(mesh);
-    let mut parts = Vec::with_capacity(topology.edge_of_face_edge.len());
-    for (f, face) in mesh.faces.iter().enumerate() {
-        let normal = mesh.normal(face);
-        for ((from, to), &edge) in face.edges().zip(topology.face_edges(f)) {
-            let along = mesh.positions[to as usize] - mesh.positions[from as usize];
-            let outward = along.cross(normal).normalize_or_zero();
-            let is_border = topology.edges[edge as usize].is_border();
-            let facet = Facet { direction: outward, is_border, roof_edge: None };
-            parts.push(Part { facet, face: f as u32, ends: [from, to], normal: outward });
+        let edges = |ring: &[u32]| -> Vec<(u32, u32)> {
+            let next = ring.iter().cycle().skip(1);
+            ring.iter().zip(next).map(|(&a, &b)| (a.min(b), a.max(b))).collect()
+        };
+        match self.kind {
+            Component::Faces | Component::Groups | Component::Materials => {
+                let loops = self.facets(i).iter().filter_map(face_of).flat_map(|f| mesh.faces[f].loops());
+                loops.flat_map(|l| edges(l)).collect()
+            }
+            Component::Holes => {
+                let [face, hole] = self.parts[i].ends;
+                edges(&mesh.faces[face as usize].holes[hole as usize])
+            }
+            _ => self.parts[i].ends.iter().map(|&v| (v, v)).collect(),
         }
     }
-    parts
 }
 
-fn vertices(mesh: &Mesh) -> Vec<Part> {
-    let topology = Topology::of(mesh);
-    let normals = vertex_normals(mesh);
-    let mut border = vec![false; mesh.positions.len()];
-    for edge in topology.edges.iter().filter(|e| e.is_border()) {
-        border[edge.from as usize] = true;
-        border[edge.to as usize] = true;
+fn face_of(facet: &Facet) -> Option<usize> {
+    match facet.place {
+        Place::Face(f) => Some(f as usize),
+        Place::Edge(_) | Place::Vertex(_) => None,
     }
-    let part = |v: u32| {
-        let normal = normals[v as usize];
-        let facet = Facet { direction: normal, is_border: border[v as usize], roof_edge: None };
-        Part { facet, face: 0, ends: [v, v], normal }
-    };
-    used_vertices(mesh).into_iter().map(part).collect()
 }

@@ -9,6 +9,7 @@ mod args;
 mod center;
 mod cleanup;
 pub mod comp;
+mod component_list;
 mod components;
 mod extrude;
 mod inner_rectangle;
@@ -27,11 +28,13 @@ mod set_pivot;
 mod split;
 mod split_sizes;
 mod strips;
+mod tag;
 mod transform;
 mod uv;
 mod uv_tiling;
 
 pub use set::set;
+pub use tag::levels as tag_levels;
 
 use super::derivation::Derivation;
 use super::environment::Env;
@@ -99,6 +102,8 @@ pub fn apply(
         O::DeleteUv => uv::delete(run, &args, shape),
         O::NormalizeUv => uv_tiling::normalize(run, &args, shape),
         O::TileUv => uv_tiling::tile(run, &args, shape),
+        O::Tag => tag::tag(run, &args, shape),
+        O::DeleteTags => tag::delete(&args, shape),
         O::Report => report::report(run, &args),
         O::Print => report::print(run, &args)?,
         other => not_evaluated(run, other.name(), span),

@@ -144,7 +144,7 @@ fn wings(
     let mut owners = Vec::with_capacity(components.len());
     let mut distances = Vec::with_capacity(components.len());
     for i in 0..components.len() {
-        let direction = components.facet(i).direction;
+        let direction = components.facets(i)[0].direction;
         let side = |word: &Word| orientation::agrees(*word, direction, &parent.scope, &run.object) == Some(true);
         let depth = sides.iter().position(side).map_or(0.0, |k| depths[k]);
         // Strips are cut even if nobody takes them.
