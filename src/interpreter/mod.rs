@@ -60,6 +60,13 @@ pub struct StartShape {
     pub name: Arc<str>,
 }
 
+impl StartShape {
+    /// A start shape for the program's own start rule, without attributes.
+    pub fn new(mesh: Mesh, seed: Seed, name: &str) -> Self {
+        StartShape { mesh, start_rule: None, attributes: Vec::new(), seed, name: name.into() }
+    }
+}
+
 /// Derives one start shape. Never panics and never fails: what went wrong is in the tree's diagnostics, and the leaves
 /// made before are kept.
 pub fn derive(program: &Program, start: &StartShape, assets: &dyn Assets, limits: &Limits) -> ShapeTree {

@@ -49,7 +49,7 @@ fn compiled(rules: &str) -> Program {
 }
 
 fn start(mesh: Mesh, seed: u64) -> StartShape {
-    StartShape { mesh, start_rule: None, attributes: Vec::new(), seed: Seed::root(seed), name: "test".into() }
+    StartShape::new(mesh, Seed::root(seed), "test")
 }
 
 #[track_caller]

@@ -36,6 +36,10 @@ const TILES: &[(&str, f64, Paint)] = &[
     ("builtin:water", 48.0, |x, y| blend(x, y, 131, [0.10, 0.19, 0.24], [0.14, 0.25, 0.31])),
     ("builtin:ash", 8.0, ash),
     ("builtin:rubble", 4.0, rubble),
+    // Names that CityEngine has too (cga-reference 4.0.6).
+    ("builtin:default", 1.0, |x, y| grey(f64::from((x / 8 + y / 8) % 2))),
+    ("builtin:uvtest.png", 1.0, uv_test),
+    ("builtin:unknowntexture.png", 1.0, |x, y| if (x / 32 + y / 32) % 2 == 0 { [0.9, 0.1, 0.8] } else { grey(0.1) }),
 ];
 
 /// Names of all built-in textures, in the order of the manual.
@@ -55,6 +59,18 @@ pub fn builtin(name: &str) -> Option<RgbaImage> {
         let [r, g, b] = paint(x, y).map(|c| (c.clamp(0.0, 1.0) * 255.0).round() as u8);
         Rgba([r, g, b, 255])
     }))
+}
+
+/// Red grows with u, green with v, in 8 x 8 fields; an F stands upright in the lower left quarter.
+fn uv_test(x: u32, y: u32) -> [f64; 3] {
+    const F: [&str; 7] = ["#####", "#    ", "#    ", "#### ", "#    ", "#    ", "#    "];
+    let (column, row) = ((x as usize).wrapping_sub(12) / 8, (y as usize).wrapping_sub(68) / 8);
+    if F.get(row).and_then(|line| line.as_bytes().get(column)) == Some(&b'#') {
+        return grey(1.0);
+    }
+    let (u, v) = (f64::from(x / 16) / 7.0, 1.0 - f64::from(y / 16) / 7.0);
+    let shade = if (x / 16 + y / 16) % 2 == 0 { 1.0 } else { 0.8 };
+    [(0.15 + 0.8 * u) * shade, (0.15 + 0.8 * v) * shade, 0.3 * shade]
 }
 
 fn grey(v: f64) -> [f64; 3] {

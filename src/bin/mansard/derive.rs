@@ -59,7 +59,7 @@ pub fn dump(file: &Path, quiet: bool) -> Result<(), Failure> {
 }
 
 fn start(mesh: Mesh, seed: u64) -> StartShape {
-    StartShape { mesh, start_rule: None, attributes: Vec::new(), seed: Seed::root(seed), name: "footprint".into() }
+    StartShape::new(mesh, Seed::root(seed), "footprint")
 }
 
 /// `name=value`: a number, `true`, `false`, or text.

@@ -10,6 +10,7 @@ mod form;
 mod function;
 mod operation;
 mod signature;
+pub mod usage;
 mod word;
 
 pub use attribute::{Attr, AttrInfo, MapLayer, MapPart, MaterialAttr};

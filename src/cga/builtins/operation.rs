@@ -150,6 +150,12 @@ impl Operation {
         self == Operation::CleanupGeometry
     }
 
+    /// Whether a block `{ … }` follows the arguments.
+    pub fn takes_block(self) -> bool {
+        use Operation as O;
+        self.makes_shapes() || matches!(self, O::Modify | O::Inline | O::Union | O::Subtract | O::Intersect)
+    }
+
     /// Whether the operation counts as creating or discarding shapes, so that no anonymous leaf follows
     /// (reference 2.1).
     pub fn makes_shapes(self) -> bool {

@@ -109,7 +109,7 @@ impl ParameterKind {
 }
 
 /// Splits at spaces outside braces.
-fn split_parameters(text: &str) -> impl Iterator<Item = &str> {
+pub(super) fn split_parameters(text: &str) -> impl Iterator<Item = &str> {
     let mut depth = 0;
     text.split(move |c: char| {
         depth += i32::from(c == '{') - i32::from(c == '}');
