@@ -34,7 +34,7 @@ pub fn syntax_error<R: RuleType>(
     let span = Span::new(origin.source, origin.offset + at, origin.offset + at + length);
     match &error.variant {
         ErrorVariant::ParsingError { positives, .. } => {
-            let expected = list(positives, wording);
+            let expected = expected(positives, wording);
             let message = match expected.is_empty() {
                 true => format!("unexpected {found}"),
                 false => format!("expected {expected}, found {found}"),
@@ -47,7 +47,8 @@ pub fn syntax_error<R: RuleType>(
     }
 }
 
-fn list<R: RuleType>(rules: &[R], wording: Wording<R>) -> String {
+/// The rules that would have fitted as "a, b or c"; empty if none has a name.
+pub fn expected<R: RuleType>(rules: &[R], wording: Wording<R>) -> String {
     let (mut strong, mut weak) = (Vec::new(), Vec::new());
     for rule in rules {
         let (list, word) = match wording(rule) {

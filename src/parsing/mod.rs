@@ -12,7 +12,7 @@ use pest::iterators::Pair;
 use crate::source::{SourceId, Span};
 
 pub use decode::{Decoded, decode};
-pub use error::{Expected, Wording, syntax_error};
+pub use error::{Expected, Wording, expected, syntax_error};
 
 /// Where pairs of one parse lie: pest counts from the start of the slice it was given.
 #[derive(Clone, Copy, Debug)]

@@ -1,14 +1,15 @@
 //! In: pest pairs of whole declarations. Out: the [`Ast`]; the helpers every part of the builder uses.
 
+use std::rc::Rc;
 use std::sync::Arc;
 
 use pest::iterators::Pair;
 
 use super::Rule;
+use super::tokens::Tokens;
 use crate::cga::ast::{Annotation, Ast, Text};
 use crate::cga::codes;
 use crate::diagnostics::{Diagnostic, Diagnostics};
-use crate::parsing::Origin;
 use crate::source::{SourceFile, Span};
 
 /// Deepest tree of expressions and successors, where an expression of n operands counts as n levels. Real rule files
@@ -16,7 +17,10 @@ use crate::source::{SourceFile, Span};
 pub const MAX_DEPTH: usize = 500;
 
 pub struct Builder {
-    pub origin: Origin,
+    file: SourceFile,
+    tokens: Rc<Tokens>,
+    /// The token at which the pairs count 0.
+    base: usize,
     pub diagnostics: Diagnostics,
     pub ast: Ast,
     /// Annotations waiting for their declaration.
@@ -28,7 +32,9 @@ pub struct Builder {
 impl Builder {
     pub fn new(file: &SourceFile) -> Builder {
         Builder {
-            origin: Origin { source: file.id, offset: 0 },
+            file: file.clone(),
+            tokens: Rc::default(),
+            base: 0,
             diagnostics: Diagnostics::default(),
             ast: Ast { source: file.id, version: None, declarations: Vec::new(), trailing: Vec::new() },
             pending: Vec::new(),
@@ -42,13 +48,26 @@ impl Builder {
         (self.ast, self.diagnostics)
     }
 
+    /// The pairs that follow were read from token `base` on.
+    pub fn reads(&mut self, tokens: &Rc<Tokens>, base: usize) {
+        self.tokens = Rc::clone(tokens);
+        self.base = base;
+    }
+
     pub fn span(&self, pair: &Pair<'_, Rule>) -> Span {
-        self.origin.span(pair)
+        let tokens = pair.as_span();
+        self.tokens.span(&self.file, self.base + tokens.start(), self.base + tokens.end())
+    }
+
+    /// What is written where the pair lies.
+    pub fn written(&self, pair: &Pair<'_, Rule>) -> &str {
+        let span = self.span(pair);
+        &self.file.text[span.start as usize..span.end as usize]
     }
 
     /// The name a pair consists of.
     pub fn text(&self, pair: &Pair<'_, Rule>) -> Text {
-        Text { text: Arc::from(pair.as_str()), span: self.span(pair) }
+        Text { text: Arc::from(self.written(pair)), span: self.span(pair) }
     }
 
     /// Runs `make` one level deeper; `None` (after one error) where the text is nested too deeply.
@@ -79,14 +98,14 @@ impl Builder {
     }
 
     /// The content of a string literal with its escapes resolved (reference 1.5).
-    pub fn string(&mut self, pair: Pair<'_, Rule>) -> Text {
-        let span = self.span(&pair);
-        let content = pair.into_inner().next().expect("a string has content");
-        let raw = content.as_str();
+    pub fn string(&mut self, pair: &Pair<'_, Rule>) -> Text {
+        let span = self.span(pair);
+        let file = self.file.clone();
+        let raw = &file.text[span.start as usize + 1..span.end as usize - 1];
         if !raw.contains('\\') {
             return Text { text: Arc::from(raw), span };
         }
-        let start = self.origin.offset + content.as_span().start();
+        let start = span.start as usize + 1;
         let mut out = String::with_capacity(raw.len());
         let mut chars = raw.char_indices();
         while let Some((at, c)) = chars.next() {
@@ -105,7 +124,7 @@ impl Builder {
                     chars.nth(3);
                 }
                 other => {
-                    let at = Span::new(self.origin.source, start + at, start + at + 1 + other.len_utf8());
+                    let at = Span::new(span.source, start + at, start + at + 1 + other.len_utf8());
                     let message = format!("`\\{other}` is not an escape; the backslash is dropped");
                     self.diagnostics.push(Diagnostic::warning(codes::UNKNOWN_ESCAPE, at, message));
                     out.push(other);

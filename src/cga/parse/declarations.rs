@@ -37,7 +37,7 @@ impl Builder {
     fn version(&mut self, pair: Pair<'_, Rule>) {
         let span = self.span(&pair);
         let string = find(pair, Rule::string).expect("version has a string");
-        let text = self.string(string);
+        let text = self.string(&string);
         if self.ast.version.is_some() || !self.ast.declarations.is_empty() {
             self.diagnostics.push(Diagnostic::warning(
                 codes::MISPLACED_VERSION,
@@ -73,14 +73,14 @@ impl Builder {
     }
 
     fn annotation_value(&mut self, pair: Pair<'_, Rule>) -> AnnotationValue {
-        let written = AnnotationValue::Text(pair.as_str().trim_end().into());
+        let written = AnnotationValue::Text(self.written(&pair).into());
         let literal = pair.into_inner().next().filter(|part| part.as_rule() == Rule::annotation_literal);
         let Some(literal) = literal.and_then(|part| part.into_inner().next()) else { return written };
         match literal.as_rule() {
-            Rule::string => AnnotationValue::Constant(Constant::String(self.string(literal).text)),
-            Rule::boolean => AnnotationValue::Constant(Constant::Bool(literal.as_str() == "true")),
-            Rule::name => AnnotationValue::Name(literal.as_str().into()),
-            _ => match literal.as_str().replace(char::is_whitespace, "").parse() {
+            Rule::string => AnnotationValue::Constant(Constant::String(self.string(&literal).text)),
+            Rule::boolean => AnnotationValue::Constant(Constant::Bool(self.written(&literal) == "true")),
+            Rule::name => AnnotationValue::Name(self.written(&literal).into()),
+            _ => match self.written(&literal).replace(char::is_whitespace, "").parse() {
                 Ok(number) => AnnotationValue::Constant(Constant::Float(number)),
                 Err(_) => written,
             },
@@ -94,7 +94,7 @@ impl Builder {
             match part.as_rule() {
                 Rule::name => out.prefix = self.text(&part),
                 Rule::import_styles => out.styles = self.names(part, Rule::style_name),
-                Rule::string => out.path = self.string(part),
+                Rule::string => out.path = self.string(&part),
                 Rule::overrides => out.overrides = Some(self.overrides(part)),
                 _ => {}
             }
@@ -104,7 +104,7 @@ impl Builder {
 
     pub fn overrides(&mut self, pair: Pair<'_, Rule>) -> Vec<Override> {
         let items = pair.into_inner().filter(|p| p.as_rule() == Rule::override_item);
-        items.filter_map(|item| item.into_inner().next()).map(|item| self.override_item(item)).collect()
+        items.map(|item| self.override_item(item)).collect()
     }
 
     fn override_item(&mut self, pair: Pair<'_, Rule>) -> Override {
@@ -154,7 +154,7 @@ impl Builder {
         };
         for part in pair.into_inner() {
             match part.as_rule() {
-                Rule::modifier if part.as_str() == "start" => out.modifier = Some(Modifier::Start),
+                Rule::modifier if self.written(&part) == "start" => out.modifier = Some(Modifier::Start),
                 Rule::modifier => out.modifier = Some(Modifier::Extension),
                 Rule::name => out.name = self.text(&part),
                 Rule::parameters => out.parameters = self.names(part, Rule::name),

@@ -63,60 +63,50 @@ impl Builder {
     /// Operands and operators by precedence climbing without recursion; all operators are left-associative.
     pub fn expression(&mut self, pair: Pair<'_, Rule>) -> Expr {
         let span = self.span(&pair);
-        let operators = pair.clone().into_inner().len() / 2;
-        self.deeper(operators, span, |b| b.expression_here(pair)).unwrap_or_else(|| placeholder(span))
+        let around = |kind| matches!(kind, Rule::binary_operator | Rule::unary_operator | Rule::index);
+        let levels = pair.clone().into_inner().filter(|part| around(part.as_rule())).count();
+        self.deeper(levels, span, |b| b.expression_here(pair)).unwrap_or_else(|| placeholder(span))
     }
 
     fn expression_here(&mut self, pair: Pair<'_, Rule>) -> Expr {
         let mut operands: Vec<Expr> = Vec::new();
         let mut waiting: Vec<BinaryOperator> = Vec::new();
+        let mut signs: Vec<(UnaryOperator, Span)> = Vec::new();
         for part in pair.into_inner() {
-            if part.as_rule() == Rule::operand {
-                let operand = self.operand(part);
-                operands.push(operand);
-                continue;
+            match part.as_rule() {
+                Rule::unary_operator => signs.push((unary_operator(self.written(&part)), self.span(&part))),
+                Rule::index => {
+                    let array = operands.pop().expect("an index follows an operand");
+                    let indexed = self.index(array, part);
+                    operands.push(indexed);
+                }
+                Rule::binary_operator => {
+                    apply_signs(&mut signs, &mut operands);
+                    let operator = binary_operator(self.written(&part));
+                    while waiting.last().is_some_and(|&before| precedence(before) >= precedence(operator)) {
+                        reduce(&mut operands, &mut waiting);
+                    }
+                    waiting.push(operator);
+                }
+                _ => {
+                    let operand = self.primary(part);
+                    operands.push(operand);
+                }
             }
-            let operator = binary_operator(part.as_str().trim_end());
-            while waiting.last().is_some_and(|&before| precedence(before) >= precedence(operator)) {
-                reduce(&mut operands, &mut waiting);
-            }
-            waiting.push(operator);
         }
+        apply_signs(&mut signs, &mut operands);
         while !waiting.is_empty() {
             reduce(&mut operands, &mut waiting);
         }
         operands.pop().expect("an expression has an operand")
     }
 
-    fn operand(&mut self, pair: Pair<'_, Rule>) -> Expr {
-        let span = self.span(&pair);
-        let around = pair.clone().into_inner().len() - 1;
-        self.deeper(around, span, |b| b.operand_here(pair, span)).unwrap_or_else(|| placeholder(span))
-    }
-
-    fn operand_here(&mut self, pair: Pair<'_, Rule>, span: Span) -> Expr {
-        let mut unary = Vec::new();
-        let mut out = placeholder(span);
-        for part in pair.into_inner() {
-            match part.as_rule() {
-                Rule::unary_operator => unary.push((unary_operator(part.as_str().trim_end()), self.span(&part))),
-                Rule::index => out = self.index(out, part),
-                _ => out = self.primary(part),
-            }
-        }
-        for (operator, at) in unary.into_iter().rev() {
-            let span = at.to(out.span);
-            out = Expr { kind: ExprKind::Unary(operator, Box::new(out)), span };
-        }
-        out
-    }
-
     fn primary(&mut self, pair: Pair<'_, Rule>) -> Expr {
         let span = self.span(&pair);
         let kind = match pair.as_rule() {
-            Rule::number => ExprKind::Number(pair.as_str().parse().expect("the grammar's numbers are Rust's")),
-            Rule::string => ExprKind::String(self.string(pair).text),
-            Rule::boolean => ExprKind::Bool(pair.as_str() == "true"),
+            Rule::number => ExprKind::Number(self.written(&pair).parse().expect("the grammar's numbers are Rust's")),
+            Rule::string => ExprKind::String(self.string(&pair).text),
+            Rule::boolean => ExprKind::Bool(self.written(&pair) == "true"),
             Rule::parenthesised => {
                 let inner = pair.into_inner().find(|p| p.as_rule() == Rule::value).expect("parentheses hold a value");
                 return Expr { span, ..self.value(inner) };
@@ -153,7 +143,7 @@ impl Builder {
     }
 
     fn elements(&mut self, pair: Pair<'_, Rule>) -> Vec<Expr> {
-        pair.into_inner().filter(|p| p.as_rule() == Rule::element).map(|p| self.element(p)).collect()
+        pair.into_inner().filter(|p| p.as_rule() == Rule::element_value).map(|p| self.element(p)).collect()
     }
 
     /// `value`, `from : to` or `from : step : to`.
@@ -202,6 +192,15 @@ fn placeholder(span: Span) -> Expr {
     Expr { kind: ExprKind::Bool(false), span }
 }
 
+/// Puts the waiting unary operators around the last operand, the innermost last.
+fn apply_signs(signs: &mut Vec<(UnaryOperator, Span)>, operands: &mut Vec<Expr>) {
+    while let Some((operator, at)) = signs.pop() {
+        let inner = operands.pop().expect("a unary operator has an operand");
+        let span = at.to(inner.span);
+        operands.push(Expr { kind: ExprKind::Unary(operator, Box::new(inner)), span });
+    }
+}
+
 pub fn read_prefix(pair: &Pair<'_, Rule>) -> Prefix {
     match pair.as_str() {
         "~" => Prefix::Floating,
@@ -210,7 +209,7 @@ pub fn read_prefix(pair: &Pair<'_, Rule>) -> Prefix {
 }
 
 pub fn selector_operator(pair: &Pair<'_, Rule>) -> SelectorOperator {
-    match pair.as_str().trim_end() {
+    match pair.as_str() {
         ":" => SelectorOperator::Each,
         "=" => SelectorOperator::All,
         _ => SelectorOperator::Connected,

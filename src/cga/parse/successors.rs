@@ -1,12 +1,14 @@
 //! In: `successor` and its items. Out: sequences, chains and blocks of the tree.
 
-use pest::iterators::Pair;
+use pest::iterators::{Pair, Pairs};
 
 use super::Rule;
 use super::build::Builder;
 use super::declarations::find;
 use super::expressions::{read_prefix, selector_operator};
-use crate::cga::ast::{Argument, Block, Expr, Item, ItemKind, Part, SectionBlock, SectionPart, Selector, Successor};
+use crate::cga::ast::{
+    Argument, Block, Expr, Item, ItemKind, Part, SectionBlock, SectionPart, Selector, Successor, Text,
+};
 use crate::cga::program::{BooleanOperator, Prefix};
 
 impl Builder {
@@ -159,8 +161,12 @@ impl Builder {
         let mut parts = pair.into_inner();
         let name = self.text(&parts.next().expect("scatter has a name"));
         let args = self.arguments(parts.next().expect("scatter has arguments"));
-        let body = parts.find(|p| p.as_rule() == Rule::successor).expect("scatter has a body");
-        ItemKind::Scatter { name, args, body: Box::new(self.successor(body)) }
+        let body = Box::new(self.braced(parts.next().expect("scatter has a block")));
+        ItemKind::Scatter { name, args, body }
+    }
+
+    fn braced(&mut self, pair: Pair<'_, Rule>) -> Successor {
+        self.successor(find(pair, Rule::successor).expect("braces hold a successor"))
     }
 
     fn perimeter_item(&mut self, pair: Pair<'_, Rule>) -> ItemKind {
@@ -199,19 +205,12 @@ impl Builder {
     fn inline_item(&mut self, pair: Pair<'_, Rule>) -> ItemKind {
         let mut parts = pair.into_inner();
         let name = self.text(&parts.next().expect("inline has a name"));
-        let mut mode = None;
-        for part in parts {
-            match part.as_rule() {
-                Rule::open_paren | Rule::close_paren => {}
-                Rule::name => mode = Some(self.text(&part)),
-                Rule::braced => {
-                    let body = find(part, Rule::successor).expect("braces hold a successor");
-                    return ItemKind::Inline { name, mode, body: Box::new(self.successor(body)) };
-                }
-                _ => return ItemKind::Inline { name, mode, body: Box::new(self.single(part)) },
-            }
-        }
-        unreachable!("inline has a body")
+        let (mode, body) = self.mode(parts);
+        let body = match body.as_rule() {
+            Rule::braced => self.braced(body),
+            _ => self.single(body),
+        };
+        ItemKind::Inline { name, mode, body: Box::new(body) }
     }
 
     fn boolean_item(&mut self, pair: Pair<'_, Rule>) -> ItemKind {
@@ -222,25 +221,28 @@ impl Builder {
             "subtract" => BooleanOperator::Subtract,
             _ => BooleanOperator::Intersect,
         };
-        let mut mode = None;
-        for part in parts {
-            match part.as_rule() {
-                Rule::open_paren | Rule::close_paren => {}
-                Rule::name => mode = Some(self.text(&part)),
-                Rule::boolean_operands => {
-                    let mut sides = part.into_inner().filter(|p| p.as_rule() == Rule::successor);
-                    let left = sides.next().expect("two operands");
-                    let left = Box::new(self.successor(left));
-                    let right = sides.next().map(|right| Box::new(self.successor(right)));
-                    return ItemKind::Boolean { operator, name, mode, left, right };
-                }
-                _ => {
-                    let left = Box::new(self.single(part));
-                    return ItemKind::Boolean { operator, name, mode, left, right: None };
-                }
+        let (mode, body) = self.mode(parts);
+        let (left, right) = match body.as_rule() {
+            Rule::boolean_operands => {
+                let mut sides = body.into_inner().filter(|p| p.as_rule() == Rule::successor);
+                let left = self.successor(sides.next().expect("two operands"));
+                let right = self.successor(sides.next().expect("two operands"));
+                (left, Some(Box::new(right)))
             }
+            _ => (self.single(body), None),
+        };
+        ItemKind::Boolean { operator, name, mode, left: Box::new(left), right }
+    }
+
+    /// The word in parentheses, if one stands there, and what follows.
+    fn mode<'i>(&mut self, mut parts: Pairs<'i, Rule>) -> (Option<Text>, Pair<'i, Rule>) {
+        let mut next = parts.next().expect("an operation has an operand");
+        let mut mode = None;
+        if next.as_rule() == Rule::mode {
+            mode = find(next, Rule::name).map(|word| self.text(&word));
+            next = parts.next().expect("an operation has an operand");
         }
-        unreachable!("a boolean operation has operands")
+        (mode, next)
     }
 
     /// A sequence of one item, one level deeper.
@@ -255,7 +257,7 @@ impl Builder {
         let prefix = self.text(&parts.next().expect("a dynamic call has a prefix"));
         let overrides = self.overrides(parts.next().expect("a dynamic call has overrides"));
         let name = self.text(&parts.next().expect("a dynamic call has a rule"));
-        let name = crate::cga::ast::Text { text: name.text[1..].into(), span: name.span };
+        let name = Text { text: name.text[1..].into(), span: name.span };
         let args = parts.next().map(|args| self.arguments(args)).unwrap_or_default();
         ItemKind::Dynamic { prefix, overrides, name, args }
     }

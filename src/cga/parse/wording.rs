@@ -13,15 +13,10 @@ pub fn wording(kind: &Rule) -> Expected {
         Rule::percent => return Expected::Weak("`% :`"),
         Rule::name | Rule::style_name | Rule::annotation_name => "a name",
         Rule::string => "a string in quotes",
-        Rule::closing_quote => "`\"`",
         Rule::number => "a number",
-        Rule::value
-        | Rule::expression
-        | Rule::operand
-        | Rule::argument
-        | Rule::element
-        | Rule::array_row
-        | Rule::call => "an expression",
+        Rule::value | Rule::expression | Rule::argument | Rule::element_value | Rule::array_row | Rule::call => {
+            "an expression"
+        }
         Rule::close_paren => "`)`",
         Rule::comma => "`,`",
         Rule::colon => "`:`",
