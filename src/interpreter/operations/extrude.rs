@@ -9,6 +9,7 @@ use super::super::placement::perpendicular;
 use super::super::shape::Shape;
 use super::super::topology::vertex_normals;
 use super::args::Args;
+use super::auto_tags;
 use crate::cga::builtins::Word;
 use crate::geometry::extrude::{Direction, LEAST_DISTANCE, extrude};
 use crate::geometry::{Face, Mesh};
@@ -37,7 +38,8 @@ pub fn apply(run: &mut Derivation, args: &Args, shape: &mut Shape) -> Outcome<()
     let corners: usize = shape.form.mesh.faces.iter().map(|face| face.corners().count()).sum();
     run.allow_vertices(2 * corners, args.span)?;
     let Some(extruded) = extrude(&shape.form.mesh, direction, distance) else { return Ok(()) };
-    let form = shape.form.derived(extruded.mesh, extruded.origins.iter().map(|origin| Some(origin.face)));
+    let mut form = shape.form.derived(extruded.mesh, extruded.origins.iter().map(|origin| Some(origin.face)));
+    auto_tags::extrusion(run.program, &shape.form, &mut form, &extruded.origins);
     let backwards = distance < 0.0 && !matches!(direction, Direction::AlongToFlatTop(_));
     replace_upright(shape, form, up, backwards);
     Ok(())
@@ -90,5 +92,7 @@ fn extrude_edges(shape: &mut Shape, direction: Direction, distance: f64) {
         mesh.positions.extend([p, q, q + along * distance, p + along * distance]);
         mesh.faces.push(Face::new(vec![start, start + 1, start + 2, start + 3]));
     }
-    replace_upright(shape, Form::from_mesh(mesh), first_up, distance < 0.0);
+    let mut walls = Form::from_mesh(mesh);
+    auto_tags::walls(form, &mut walls);
+    replace_upright(shape, walls, first_up, distance < 0.0);
 }

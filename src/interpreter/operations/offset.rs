@@ -4,6 +4,7 @@
 use super::super::derivation::Derivation;
 use super::super::shape::Shape;
 use super::args::Args;
+use super::auto_tags;
 use super::plan_faces::PlanFaces;
 use crate::cga::builtins::Word;
 use crate::geometry::offset::offset;
@@ -18,6 +19,8 @@ pub fn apply(run: &mut Derivation, args: &Args, shape: &mut Shape) {
     shape.bake();
     let source = shape.form.clone();
     let mut out = PlanFaces::new(&source);
+    // Per result face: whether it is the border of an edge, and of which.
+    let mut borders: Vec<Option<(usize, usize)>> = Vec::new();
     for (number, face) in source.mesh.faces.iter().enumerate() {
         let Some(frame) = PlaneFrame::of_face(&source.mesh, face) else { continue };
         match offset(&frame.face_to_plan(&source.mesh, face), distance) {
@@ -28,9 +31,11 @@ pub fn apply(run: &mut Derivation, args: &Args, shape: &mut Shape) {
                 let face = out.face(number, frame);
                 if keep != Word::Border {
                     result.inside.iter().for_each(|polygon| out.push(&face, polygon));
+                    borders.resize(borders.len() + result.inside.len(), None);
                 }
                 if keep != Word::Inside {
                     for border in result.borders {
+                        borders.push(Some((number, border.edge)));
                         let polygon = Polygon { outer: border.ring, holes: Vec::new() };
                         // Outside the face, borders look the other way, so that areas add up.
                         if distance > 0.0 { out.push_flipped(&face, &polygon) } else { out.push(&face, &polygon) }
@@ -43,6 +48,7 @@ pub fn apply(run: &mut Derivation, args: &Args, shape: &mut Shape) {
             }
         }
     }
-    let form = out.into_form();
+    let mut form = out.into_form();
+    auto_tags::borders(&source, &mut form, &borders);
     shape.replace(form);
 }

@@ -11,6 +11,7 @@ use super::args::Args;
 use super::comp::{Test, assign};
 use super::components::Components;
 use super::plan_faces::PlanFaces;
+use super::setback_tags;
 use super::strips;
 use super::{Pieces, inner_rectangle};
 use crate::cga::builtins::{Operation, Word};
@@ -38,14 +39,19 @@ pub fn pieces<'p>(
 ) -> Outcome<Pieces<'p>> {
     let mut parent = env.shape.clone();
     parent.bake();
+    let mut cuts: Option<Vec<f64>> = None;
     let regions = match operation {
         Operation::Setback => {
             let (owners, distances) = selected_edges(run, args, &parent, selectors, env)?;
-            cut(run, args, &parent, selectors, &owners, &distances, Word::Remainder)
+            let regions = cut(run, args, &parent, selectors, &owners, &distances, Word::Remainder);
+            cuts = Some(distances);
+            regions
         }
         Operation::ShapeL | Operation::ShapeU | Operation::ShapeO => {
             let (owners, distances) = wings(run, operation, args, &parent, selectors);
-            cut(run, args, &parent, selectors, &owners, &distances, Word::Remainder)
+            let regions = cut(run, args, &parent, selectors, &owners, &distances, Word::Remainder);
+            cuts = Some(distances);
+            regions
         }
         Operation::InnerRectangle => inner_rectangle::regions(run, args, &parent, selectors),
         other => {
@@ -57,15 +63,18 @@ pub fn pieces<'p>(
             return Ok(Vec::new());
         }
     };
-    let pieces = shapes(&parent, selectors, regions);
+    let cuts = cuts.filter(|_| run.program.observes_tags());
+    let pieces = shapes(&parent, selectors, regions, cuts.as_deref());
     run.count_shapes(pieces.len(), args.span)?;
     Ok(pieces)
 }
 
-/// One shape per polygon (`:`) or per selector (`=`), fitted, axes and pivot as they were.
-fn shapes<'p>(parent: &Shape, selectors: &'p [Selector], regions: Regions) -> Pieces<'p> {
+/// One shape per polygon (`:`) or per selector (`=`), fitted, axes and pivot as they were. With the distances of a
+/// setback its edges are tagged.
+fn shapes<'p>(parent: &Shape, selectors: &'p [Selector], regions: Regions, cuts: Option<&[f64]>) -> Pieces<'p> {
     let mut out: Pieces<'p> = Vec::new();
-    for (selector, polygons) in selectors.iter().zip(regions.by_selector) {
+    let rest = named(selectors, Word::Remainder);
+    for (number, (selector, polygons)) in selectors.iter().zip(regions.by_selector).enumerate() {
         let groups: Vec<Vec<(usize, Polygon)>> = match selector.operator {
             SelectorOperator::Each | SelectorOperator::Connected => polygons.into_iter().map(|p| vec![p]).collect(),
             SelectorOperator::All if polygons.is_empty() => Vec::new(),
@@ -81,7 +90,11 @@ fn shapes<'p>(parent: &Shape, selectors: &'p [Selector], regions: Regions) -> Pi
                     faces.push(&source, polygon);
                 }
             }
-            let form = faces.into_form();
+            let mut form = faces.into_form();
+            if let Some(distances) = cuts {
+                let sources: Vec<usize> = group.iter().map(|(number, _)| *number).collect();
+                setback_tags::mark(&parent.form, &mut form, &sources, distances, rest == Some(number));
+            }
             let mut shape = parent.clone();
             shape.replace(form);
             shape.lineage.comp_selector = selector.text.clone();

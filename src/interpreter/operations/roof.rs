@@ -7,6 +7,7 @@ use super::super::derivation::Derivation;
 use super::super::form::Form;
 use super::super::shape::Shape;
 use super::args::Args;
+use super::auto_tags::{self, Sides};
 use super::extrude::replace_upright;
 use crate::cga::builtins::Word;
 use crate::geometry::roof::{self, Roof, RoofError, RoofWarning, Slope};
@@ -25,7 +26,7 @@ pub fn hip(run: &mut Derivation, args: &Args, shape: &mut Shape) {
     let (slope, next) = slope(run, args);
     let overhang = args.float_or(run, next, 0.0);
     let even = args.bool(next + 1);
-    build(run, args, shape, |polygon, _| roof::hip(polygon, slope, overhang, even));
+    build(run, args, shape, Sides::Plain, |polygon, _| roof::hip(polygon, slope, overhang, even));
 }
 
 pub fn gable(run: &mut Derivation, args: &Args, shape: &mut Shape) {
@@ -34,24 +35,26 @@ pub fn gable(run: &mut Derivation, args: &Args, shape: &mut Shape) {
     let overhang_y = args.float_or(run, next + 1, 0.0);
     let even = args.bool(next + 2);
     let index = args.float(run, next + 3).map(|x| x as i64);
-    build(run, args, shape, |polygon, _| roof::gable(polygon, slope, overhang_x, overhang_y, even, index));
+    build(run, args, shape, Sides::Plain, |polygon, _| {
+        roof::gable(polygon, slope, overhang_x, overhang_y, even, index)
+    });
 }
 
 pub fn pyramid(run: &mut Derivation, args: &Args, shape: &mut Shape) {
     let (slope, _) = slope(run, args);
-    build(run, args, shape, |polygon, _| roof::pyramid(polygon, slope));
+    build(run, args, shape, Sides::Plain, |polygon, _| roof::pyramid(polygon, slope));
 }
 
 pub fn shed(run: &mut Derivation, args: &Args, shape: &mut Shape) {
     let (slope, next) = slope(run, args);
     let index = args.float_or(run, next, 0.0) as i64;
-    build(run, args, shape, |polygon, _| roof::shed(polygon, slope, index));
+    build(run, args, shape, Sides::OuterAndInner, |polygon, _| roof::shed(polygon, slope, index));
 }
 
 pub fn ridge(run: &mut Derivation, args: &Args, shape: &mut Shape) {
     let (slope, _) = slope(run, args);
     let along = shape.scope.frame.axes.x_axis;
-    build(run, args, shape, |polygon, frame| {
+    build(run, args, shape, Sides::OuterAndInner, |polygon, frame| {
         let plan = DVec2::new(along.dot(frame.u), along.dot(frame.v));
         roof::ridge(polygon, slope, plan.try_normalize().unwrap_or(DVec2::X))
     });
@@ -62,13 +65,14 @@ fn build(
     run: &mut Derivation,
     args: &Args,
     shape: &mut Shape,
+    sides: Sides,
     roofed: impl Fn(&Polygon, &PlaneFrame) -> Result<Roof, RoofError>,
 ) {
     shape.bake();
     let source = &shape.form.mesh;
     let Some(up) = source.faces.first().map(|face| source.normal(face)).filter(|n| *n != DVec3::ZERO) else { return };
     let mut mesh = Mesh::default();
-    let mut sources = Vec::new();
+    let (mut sources, mut parts) = (Vec::new(), Vec::new());
     for (number, face) in source.faces.iter().enumerate() {
         let Some(frame) = PlaneFrame::of_face(source, face) else { continue };
         match roofed(&frame.face_to_plan(source, face), &frame) {
@@ -76,6 +80,7 @@ fn build(
                 warn(run, args, &roof.warnings);
                 append(&mut mesh, &roof.mesh, &frame);
                 sources.resize(mesh.faces.len(), Some(number as u32));
+                parts.extend(roof.parts.iter().map(|part| (number, *part)));
             }
             Err(error) => {
                 run.warn("cga::roof", args.span, || format!("no roof here: {error}"));
@@ -83,7 +88,8 @@ fn build(
             }
         }
     }
-    let form: Form = shape.form.derived(mesh, sources.into_iter());
+    let mut form: Form = shape.form.derived(mesh, sources.into_iter());
+    auto_tags::roof(run.program, &shape.form, &mut form, sides, &parts);
     replace_upright(shape, form, up, false);
 }
 

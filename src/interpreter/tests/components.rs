@@ -23,8 +23,8 @@ P --> print(convert(x, scope, world, pos, 0, 0, 0) + " " + convert(y, scope, wor
 
 #[test]
 fn vertices_keep_the_parents_x() {
-    let s = show("r(0, 30, 0) comp(v) { 0 : Show }");
-    near(&[s.p, s.o].concat(), &[0.0, 0.0, -10.0, -90.0, 30.0, 0.0]);
+    let s = show("rotateScope(0, 30, 0) comp(v) { 0 : Show }");
+    near(&[s.p, s.o].concat(), &[0.0, 0.0, 0.0, -90.0, 30.0, 0.0]);
 }
 
 #[test]
