@@ -29,6 +29,8 @@ pub struct Derivation<'p> {
     pub object: Frame,
     /// Name of the rule the initial shape was derived with.
     pub start_rule: Arc<str>,
+    /// What the derivation began with, before its attributes were known.
+    pub initial: Option<Shape>,
     pub leaves: Leaves,
     pub reports: BTreeMap<Arc<str>, Report>,
     pub prints: Vec<String>,
@@ -108,6 +110,7 @@ impl<'p> Derivation<'p> {
             limits,
             object: Frame::WORLD,
             start_rule: "".into(),
+            initial: None,
             leaves: Leaves::default(),
             reports: BTreeMap::new(),
             prints: Vec::new(),

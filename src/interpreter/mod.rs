@@ -33,6 +33,7 @@ mod successor;
 pub mod text;
 mod topology;
 pub mod tree;
+mod trim_planes;
 mod value;
 
 use std::sync::Arc;

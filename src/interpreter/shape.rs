@@ -15,6 +15,7 @@ use super::form::Form;
 use super::placement::{Frame, euler};
 use super::projection::Projection;
 use super::seed::Seed;
+use super::trim_planes::TrimSource;
 use super::value::Value;
 
 /// An oriented box: sizes may be 0 (flat) or negative (mirrored).
@@ -52,6 +53,7 @@ pub struct Shape {
     pub seedian: Option<f64>,
     pub trim_horizontal: bool,
     pub trim_vertical: bool,
+    pub trim_source: Option<TrimSource>,
 }
 
 /// Extents below this share of the largest one, plus the noise of the coordinates, are flat.

@@ -31,6 +31,7 @@ pub fn prepare<'p>(run: &mut Derivation<'p>) -> Outcome<Option<Task>> {
     let mesh = without_doubled_vertices(run, span);
     run.object = object_frame(&mesh);
     let mut shape = initial_shape(mesh, run);
+    run.initial = Some(shape.clone());
     evaluate_attributes(run, &mut shape)?;
     run.leaves.set_attributes(exported(run, &shape));
     let step = Arc::new(Step { parent: None, index: 0, depth: 0, name: run.start_rule.clone() });
@@ -114,6 +115,7 @@ fn initial_shape(mesh: Mesh, run: &Derivation) -> Shape {
         seedian: None,
         trim_horizontal: false,
         trim_vertical: true,
+        trim_source: None,
     }
 }
 

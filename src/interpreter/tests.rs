@@ -14,6 +14,7 @@ mod splits;
 mod surfaces;
 mod tags;
 mod transforms;
+mod trims;
 
 use std::sync::Arc;
 

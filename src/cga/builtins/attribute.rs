@@ -2,7 +2,7 @@
 //! (reference 5).
 
 use super::Status;
-use super::Status::{Evaluated, NotYet};
+use super::Status::Evaluated;
 use crate::cga::program::{Axis, Type};
 
 /// A built-in attribute of a shape.
@@ -152,8 +152,8 @@ static ROWS: &[AttrInfo] = &[
     row("comp.sel", Attr::CompSel, Type::String, false, Evaluated),
     row("comp.index", Attr::CompIndex, Type::Float, false, Evaluated),
     row("comp.total", Attr::CompTotal, Type::Float, false, Evaluated),
-    row("trim.horizontal", Attr::TrimHorizontal, Type::Bool, true, NotYet),
-    row("trim.vertical", Attr::TrimVertical, Type::Bool, true, NotYet),
+    row("trim.horizontal", Attr::TrimHorizontal, Type::Bool, true, Evaluated),
+    row("trim.vertical", Attr::TrimVertical, Type::Bool, true, Evaluated),
     material("material.name", MaterialAttr::Name, Type::String),
     material("material.shader", MaterialAttr::Shader, Type::String),
     material("material.color.r", MaterialAttr::Color(0), Type::Float),

@@ -85,7 +85,7 @@ operations! {
     Rectify "rectify" NotYet ["F"]
     ReduceGeometry "reduceGeometry" NotYet ["F"]
     Report "report" Evaluated ["S X"]
-    ResetGeometry "resetGeometry" NotYet [""]
+    ResetGeometry "resetGeometry" Evaluated [""]
     ResetMaterial "resetMaterial" Evaluated ["{shape geometry all}?"]
     ReverseNormals "reverseNormals" Evaluated [""]
     RoofGable "roofGable" Evaluated ["F F? F? B? F?", "{byAngle byHeight} F F? F? B? F?"]
@@ -130,7 +130,7 @@ operations! {
     TileUv "tileUV" Evaluated ["F F~ F~"]
     Translate "translate" Evaluated ["{abs rel} {scope pivot object world} F F F"]
     TranslateUv "translateUV" Evaluated ["F F F"]
-    Trim "trim" NotYet [""]
+    Trim "trim" Evaluated [""]
     Union "union" NotYet [""]
 }
 
@@ -154,6 +154,21 @@ impl Operation {
     pub fn takes_block(self) -> bool {
         use Operation as O;
         self.makes_shapes() || matches!(self, O::Modify | O::Inline | O::Union | O::Subtract | O::Intersect)
+    }
+
+    /// Whether the operation puts geometry into the scope: `i` and the primitives. Trim planes cut it (reference 3.8).
+    pub fn inserts(self) -> bool {
+        use Operation as O;
+        matches!(
+            self,
+            O::Insert
+                | O::PrimitiveCone
+                | O::PrimitiveCube
+                | O::PrimitiveCylinder
+                | O::PrimitiveDisk
+                | O::PrimitiveQuad
+                | O::PrimitiveSphere
+        )
     }
 
     /// Whether the operation counts as creating or discarding shapes, so that no anonymous leaf follows

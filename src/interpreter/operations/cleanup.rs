@@ -1,8 +1,7 @@
-//! `cleanupGeometry` and `deleteHoles` (reference 4.12). In: what to clean and a tolerance 0..1. Out: close vertices
+//! `cleanupGeometry` (reference 4.12). In: what to clean and a tolerance 0..1. Out: close vertices
 //! merged, straight corners dropped, edges between coplanar faces dissolved, tiny and doubled faces gone.
 
 use std::collections::BTreeMap;
-use std::sync::Arc;
 
 use glam::DVec3;
 
@@ -47,17 +46,6 @@ pub fn apply(run: &mut Derivation, args: &Args, shape: &mut Shape) {
     let all: Vec<usize> = (0..cleaned.mesh.faces.len()).collect();
     let cleaned = cleaned.part(&all);
     shape.replace(cleaned);
-}
-
-/// Fills all holes.
-pub fn delete_holes(shape: &mut Shape) {
-    let form = Arc::make_mut(&mut shape.form);
-    for face in &mut form.mesh.faces {
-        let corners = face.outer.len();
-        face.holes.clear();
-        face.uvs.iter_mut().for_each(|(_, uv)| uv.truncate(corners));
-        face.normals.truncate(corners);
-    }
 }
 
 fn same_corners(a: &Face, b: &Face) -> bool {

@@ -42,6 +42,9 @@ pub fn pieces<'p>(
         let total = groups.len() as f64;
         for (index, group) in groups.iter().enumerate() {
             let mut shape = components.shape(&parent, group);
+            if selector.operator == SelectorOperator::Each {
+                components.add_trim_planes(&parent, group[0], &mut shape);
+            }
             shape.lineage.comp_selector = selector.text.clone();
             shape.lineage.comp_index = index as f64;
             shape.lineage.comp_total = total;

@@ -10,6 +10,7 @@ use super::super::environment::{Facet, Place};
 use super::super::form::Form;
 use super::super::placement::{Frame, perpendicular};
 use super::super::shape::{Scope, Shape};
+use super::super::trim_planes::TrimSource;
 use super::component_list as list;
 use crate::cga::program::Component;
 use crate::geometry::transform::flip_face;
@@ -80,6 +81,17 @@ impl Components {
         shape.binding = shape.scope;
         shape.form = Arc::new(form);
         shape
+    }
+
+    /// A face split off by `:` keeps where its trim planes come from; the old ones are gone (reference 3.8).
+    pub fn add_trim_planes(&self, parent: &Shape, i: usize, shape: &mut Shape) {
+        if self.kind == Component::Faces
+            && parent.form.mesh.faces.len() > 1
+            && let Some(face) = self.facets(i).first().and_then(face_of)
+        {
+            let (form, face) = (parent.form.clone(), face as u32);
+            shape.trim_source = Some(TrimSource { form, face, up: shape.pivot.axes.y_axis });
+        }
     }
 
     fn form(&self, parent: &Shape, group: &[usize]) -> Form {

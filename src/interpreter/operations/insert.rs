@@ -12,6 +12,7 @@ use super::super::limits::Outcome;
 use super::super::shape::Shape;
 use super::super::value::Value;
 use super::args::Args;
+use super::insert_cleanup;
 use super::primitive::unit_cube;
 use crate::cga::builtins::Word;
 
@@ -30,8 +31,10 @@ pub fn apply(run: &mut Derivation, args: &Args, shape: &mut Shape) -> Outcome<()
         run.warn("cga::missing-asset", args.span, || format!("{error}, a box stands in"));
         Arc::new(Asset::new(unit_cube()))
     });
-    run.count_vertices(asset.form.mesh.positions.len(), args.span)?;
+    run.allow_vertices(asset.form.mesh.positions.len(), args.span)?;
     let words: Vec<Word> = (1..args.len()).filter_map(|i| args.word(i)).collect();
+    let clean = if words.contains(&Word::NoCleanup) { None } else { insert_cleanup::cleaned(&asset.form) };
+    let asset = clean.map_or(asset, |form| Arc::new(Asset::new(form)));
     let upright = if words.contains(&Word::ZUp) { Arc::new(z_up(&asset)) } else { asset };
     let mode = words.iter().find(|w| matches!(w, Word::KeepSizeAndPosition | Word::KeepSizeAlignPosition));
     match mode {

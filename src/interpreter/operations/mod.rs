@@ -12,15 +12,18 @@ mod cleanup;
 pub mod comp;
 mod component_list;
 mod components;
+mod delete_holes;
 mod extrude;
 mod inner_rectangle;
 mod insert;
+mod insert_cleanup;
 mod mirror;
 mod offset;
 mod plan_faces;
 mod primitive;
 mod regions;
 mod report;
+mod reset_geometry;
 mod reverse_normals;
 mod roof;
 mod roof_edges;
@@ -32,6 +35,7 @@ mod split_sizes;
 mod strips;
 mod tag;
 mod transform;
+mod trim;
 mod uv;
 mod uv_tiling;
 
@@ -90,8 +94,10 @@ pub fn apply(
         O::PrimitiveCone => primitive::cone(run, &args, shape),
         O::PrimitiveSphere => primitive::sphere(run, &args, shape),
         O::Insert => insert::apply(run, &args, shape)?,
+        O::ResetGeometry => reset_geometry::apply(run, shape),
+        O::Trim => trim::apply(shape),
         O::CleanupGeometry => cleanup::apply(run, &args, shape),
-        O::DeleteHoles => cleanup::delete_holes(shape),
+        O::DeleteHoles => delete_holes::apply(shape),
         O::Color => appearance::color(run, &args, shape),
         O::Texture => appearance::texture(run, &args, shape),
         O::ResetMaterial => appearance::reset(&args, shape),
@@ -109,6 +115,9 @@ pub fn apply(
         O::Report => report::report(run, &args),
         O::Print => report::print(run, &args)?,
         other => not_evaluated(run, other.name(), span),
+    }
+    if operation.inserts() {
+        trim::inserted(shape);
     }
     Ok(())
 }

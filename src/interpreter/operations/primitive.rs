@@ -16,7 +16,11 @@ use crate::geometry::{Face, Mesh};
 const MOST_PARTS: f64 = 1024.0;
 
 fn parts(run: &mut Derivation, args: &Args, i: usize, least: f64) -> u32 {
-    args.float_or(run, i, 16.0).round().clamp(least, MOST_PARTS) as u32
+    let wanted = args.float_or(run, i, 16.0).round();
+    if wanted > MOST_PARTS {
+        run.warn("cga::too-many-parts", args.span, || format!("primitives have at most {MOST_PARTS} parts around"));
+    }
+    wanted.clamp(least, MOST_PARTS) as u32
 }
 
 /// The form stretched to the scope, or at its own `size` centred in the scope's x and z on its floor.
