@@ -10,9 +10,11 @@ use super::StartShape;
 use super::assets::Assets;
 use super::leaves::Leaves;
 use super::limits::{Limits, Outcome, Stop};
+use super::outline::Outline;
 use super::placement::Frame;
 use super::shape::Shape;
 use super::start;
+use super::streets::Streets;
 use super::tree::{Report, ShapeTree};
 use super::value::Value;
 use crate::cga::program::{Program, RuleId};
@@ -27,6 +29,10 @@ pub struct Derivation<'p> {
     pub limits: &'p Limits,
     /// The initial shape's frame (reference 3.2).
     pub object: Frame,
+    /// The initial shape's edges, where the host has data about them.
+    pub outline: Option<Outline>,
+    /// Where the initial shape has streets, as the host or `streetWidth(edge)` says.
+    pub streets: Option<Streets>,
     /// Name of the rule the initial shape was derived with.
     pub start_rule: Arc<str>,
     /// What the derivation began with, before its attributes were known.
@@ -109,6 +115,8 @@ impl<'p> Derivation<'p> {
             assets,
             limits,
             object: Frame::WORLD,
+            outline: None,
+            streets: None,
             start_rule: "".into(),
             initial: None,
             leaves: Leaves::default(),
@@ -153,6 +161,11 @@ impl<'p> Derivation<'p> {
             }
         }
         Ok(())
+    }
+
+    /// Child numbers from the root to the shape whose rule runs; none before the first rule.
+    pub fn path(&self) -> Arc<[u32]> {
+        self.running.as_ref().map_or_else(|| [].into(), |step| step.path())
     }
 
     fn check_pending(&mut self, rule: RuleId) -> Outcome<()> {

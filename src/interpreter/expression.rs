@@ -8,11 +8,12 @@ use std::sync::Arc;
 use super::arithmetic;
 use super::choice;
 use super::derivation::Derivation;
-use super::environment::Env;
+use super::environment::{Env, Facet, RoofEdge};
 use super::limits::{Outcome, Stop};
 use super::operations::comp;
+use super::shape::Shape;
 use super::value::Value;
-use super::{array, attribute, functions, orientation};
+use super::{array, attribute, functions, streets};
 use crate::cga::builtins::Word;
 use crate::cga::program::{Arg, BinaryOperator, Expr, ExprKind, Prefix, Type};
 use crate::source::Span;
@@ -166,20 +167,14 @@ impl<'p> Derivation<'p> {
     /// Whether the current component, or the current shape's faces, match a selector word.
     fn matches(&mut self, word: Word, env: &Env) -> bool {
         match (env.component, env.outer) {
-            (Some(facets), Some(outer)) => facets.iter().any(|f| facet_matches(word, f, outer, &self.object)),
+            (Some(facets), Some(outer)) => facets.iter().any(|f| facet_matches(self, word, f, outer)),
             _ => false,
         }
     }
 }
 
 /// Whether a component of `outer` matches a selector word (reference 3.5, 3.6).
-pub fn facet_matches(
-    word: Word,
-    facet: &super::environment::Facet,
-    outer: &super::shape::Shape,
-    object: &super::placement::Frame,
-) -> bool {
-    use super::environment::RoofEdge;
+pub fn facet_matches(run: &Derivation, word: Word, facet: &Facet, outer: &Shape) -> bool {
     match word {
         Word::All => true,
         Word::Border => facet.is_border,
@@ -188,7 +183,7 @@ pub fn facet_matches(
         Word::Hip => facet.roof_edge == Some(RoofEdge::Hip),
         Word::Valley => facet.roof_edge == Some(RoofEdge::Valley),
         Word::Ridge => facet.roof_edge == Some(RoofEdge::Ridge),
-        other => orientation::agrees(other, facet.direction, &outer.scope, object).unwrap_or(false),
+        other => streets::facet_agrees(run, other, facet, outer).unwrap_or(false),
     }
 }
 

@@ -2,30 +2,32 @@
 
 use glam::{DVec2, DVec3};
 
+use super::derivation::Derivation;
 use super::form::Form;
-use super::orientation;
-use super::placement::Frame;
 use super::shape::Shape;
+use super::streets;
 use super::topology::{Topology, used_vertices};
 use crate::cga::builtins::Word;
 use crate::geometry::{Face, Mesh, mesh_checks};
 
 /// Sum of the face areas; with a word only of faces that look that way.
-pub fn area(shape: &Shape, word: Option<Word>, object: &Frame) -> f64 {
+pub fn area(run: &Derivation, shape: &Shape, word: Option<Word>) -> f64 {
     let form = shape.world_form();
     let mesh = &form.mesh;
     let counted = |face: &&Face| match word {
         None | Some(Word::All | Word::Surface) => true,
-        Some(word) => orientation::agrees(word, mesh.normal(face), &shape.scope, object) == Some(true),
+        Some(word) => streets::face_agrees(run, word, mesh, face, shape) == Some(true),
     };
     mesh.faces.iter().filter(counted).map(|face| mesh.area(face)).sum()
 }
 
 /// Whether some face (or edge or vertex normal) looks that way.
-pub fn is_oriented(shape: &Shape, word: Word, object: &Frame) -> bool {
+pub fn is_oriented(run: &Derivation, shape: &Shape, word: Word) -> bool {
     let form = shape.world_form();
-    let agrees = |n: DVec3| word == Word::All || orientation::agrees(word, n, &shape.scope, object) == Some(true);
-    form.mesh.faces.iter().any(|face| agrees(form.mesh.normal(face))) || form.normals.iter().any(|&n| agrees(n))
+    let mesh = &form.mesh;
+    let agrees = |at: DVec3, n: DVec3| word == Word::All || streets::agrees(run, word, at, n, shape) == Some(true);
+    mesh.faces.iter().any(|face| agrees(streets::middle(mesh, face), mesh.normal(face)))
+        || form.normals.iter().any(|&n| agrees(shape.scope.center(), n))
 }
 
 /// Steepest slope against the ground, degrees, with the normal of that face.

@@ -15,6 +15,7 @@ mod environment;
 mod expression;
 mod form;
 mod functions;
+pub mod host;
 pub mod json;
 mod labels;
 mod leaves;
@@ -24,11 +25,13 @@ mod measure;
 pub mod obj;
 mod operations;
 mod orientation;
+mod outline;
 mod placement;
 mod projection;
 pub mod seed;
 mod shape;
 mod start;
+mod streets;
 mod successor;
 pub mod text;
 mod topology;
@@ -40,6 +43,7 @@ use std::sync::Arc;
 
 pub use assets::{Assets, FileAssets, NoAssets};
 use derivation::Derivation;
+pub use host::HostData;
 pub use limits::Limits;
 use seed::Seed;
 use tree::{Scalar, ShapeTree};
@@ -59,12 +63,21 @@ pub struct StartShape {
     pub seed: Seed,
     /// `initialShape.name`.
     pub name: Arc<str>,
+    /// Data per edge and the place on Earth.
+    pub host: HostData,
 }
 
 impl StartShape {
     /// A start shape for the program's own start rule, without attributes.
     pub fn new(mesh: Mesh, seed: Seed, name: &str) -> Self {
-        StartShape { mesh, start_rule: None, attributes: Vec::new(), seed, name: name.into() }
+        StartShape {
+            mesh,
+            start_rule: None,
+            attributes: Vec::new(),
+            seed,
+            name: name.into(),
+            host: HostData::default(),
+        }
     }
 }
 

@@ -9,8 +9,10 @@ use super::derivation::{Derivation, Step, Symbol, Task};
 use super::environment::Env;
 use super::form::Form;
 use super::limits::{Outcome, Stop};
+use super::outline::{self, Outline};
 use super::placement::{Frame, perpendicular};
 use super::shape::{Lineage, Scope, Shape};
+use super::streets::Streets;
 use super::tree::Scalar;
 use super::value::Value;
 use crate::cga::program::{Attribute, Constant, RuleId};
@@ -30,6 +32,11 @@ pub fn prepare<'p>(run: &mut Derivation<'p>) -> Outcome<Option<Task>> {
     run.count_vertices(run.start.mesh.positions.len(), span)?;
     let mesh = without_doubled_vertices(run, span);
     run.object = object_frame(&mesh);
+    run.outline = outline::of_host(&run.start.host, &run.start.mesh, &mesh);
+    let street_widths = &run.start.host.street_widths;
+    if !street_widths.is_empty() {
+        run.streets = Streets::new(Outline::new(&run.start.mesh, &mesh), street_widths);
+    }
     let mut shape = initial_shape(mesh, run);
     run.initial = Some(shape.clone());
     evaluate_attributes(run, &mut shape)?;
@@ -127,6 +134,10 @@ fn evaluate_attributes(run: &mut Derivation, shape: &mut Shape) -> Outcome<()> {
         let attribute = program.attribute(id);
         let value = match host_value(run, attribute) {
             Some(value) => value,
+            None if attribute.is_map => {
+                shape.seed = seed.named(&attribute.name);
+                street_widths(run, attribute, shape)?
+            }
             None => {
                 shape.seed = seed.named(&attribute.name);
                 default_value(run, attribute, shape)?
@@ -136,6 +147,27 @@ fn evaluate_attributes(run: &mut Derivation, shape: &mut Shape) -> Outcome<()> {
     }
     shape.seed = seed;
     Ok(())
+}
+
+/// `attr streetWidth(edge) = ...`: the host's width of every edge, else the default for every edge, which then decides
+/// where streets are.
+fn street_widths<'p>(run: &mut Derivation<'p>, attribute: &'p Attribute, shape: &Shape) -> Outcome<Value> {
+    let given = &run.start.host.street_widths;
+    if !given.is_empty() {
+        return Ok(Value::floats(given.clone()));
+    }
+    let outline = Outline::new(&run.start.mesh, &shape.form.mesh);
+    let mut widths = Vec::new();
+    for edge in 0..run.start.mesh.faces.iter().map(|f| f.edges().count()).sum() {
+        let mut slots = vec![Value::Float(edge as f64)];
+        for (i, local) in attribute.locals.iter().enumerate() {
+            let value = run.eval(local, &Env::new(shape, &slots, i as u64 + 1))?;
+            slots.push(value);
+        }
+        widths.push(run.eval_finite(&attribute.default, &Env::new(shape, &slots, 0))?);
+    }
+    run.streets = run.streets.take().or_else(|| Streets::new(outline, &widths));
+    Ok(Value::floats(widths))
 }
 
 fn default_value<'p>(run: &mut Derivation<'p>, attribute: &'p Attribute, shape: &Shape) -> Outcome<Value> {
@@ -149,7 +181,7 @@ fn default_value<'p>(run: &mut Derivation<'p>, attribute: &'p Attribute, shape: 
 
 /// The host's value, converted to the attribute's type and kept to its range.
 fn host_value(run: &mut Derivation, attribute: &Attribute) -> Option<Value> {
-    if attribute.is_const {
+    if attribute.is_const || attribute.is_map {
         return None;
     }
     let start = run.start;
@@ -184,7 +216,7 @@ fn constant(constant: &Constant) -> Value {
 /// show (compatibility notes, "Random, attributes, reports").
 fn exported(run: &Derivation, shape: &Shape) -> Arc<[(Arc<str>, Scalar)]> {
     let attributes = run.program.attributes().iter().zip(shape.attributes.iter());
-    let shown = attributes.filter(|(a, _)| !a.is_const && !a.annotations.hidden);
+    let shown = attributes.filter(|(a, _)| !a.is_const && !a.is_map && !a.annotations.hidden);
     let mut list: Vec<_> = shown.map(|(a, value)| (a.name.clone(), value.to_scalar())).collect();
     list.sort_by(|a, b| a.0.cmp(&b.0));
     list.into()

@@ -23,7 +23,7 @@ use crate::interpreter::assets::Assets;
 use crate::interpreter::limits::Limits;
 use crate::interpreter::seed::Seed;
 use crate::interpreter::tree::{Scalar, ShapeTree};
-use crate::interpreter::{StartShape, derive};
+use crate::interpreter::{HostData, StartShape, derive};
 use crate::plan::change::Changed;
 use crate::scene::Presence;
 use crate::scene::assemble::{FeatureParts, StateParts};
@@ -217,6 +217,7 @@ impl Context<'_> {
             attributes,
             seed: self.seed.named(&feature.id.to_string()),
             name: feature.id.to_string().into(),
+            host: HostData::default(),
         };
         let tree = derive(self.recipe.programs.get(&rule.file), &start, self.assets, &self.limits);
         let failed = tree.diagnostics.iter().find(|d| d.severity == Severity::Error);

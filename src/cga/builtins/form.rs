@@ -39,11 +39,11 @@ forms! {
     CompKeepAxes "comp(..., noAlign)" Evaluated
     CompFunction "the comp function" Evaluated
     SplitUv "split(u | v, ...)" NotYet
-    StreetSelector "street selectors" NotYet
+    StreetSelector "street selectors" Evaluated
     UvSelector "uv selectors" NotYet
     RoofEdgeSelector "the selectors eave, hip, valley and ridge" Evaluated
     VertexNormalExtrusion "extrude(vertex.normal, ...)" Evaluated
     DynamicImport "a dynamic import call" NotYet
-    StreetWidth "the map attribute streetWidth" NotYet
+    StreetWidth "the map attribute streetWidth" Evaluated
     ComputedSet "set(sel(...), ...)" Evaluated
 }

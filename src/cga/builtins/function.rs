@@ -135,15 +135,15 @@ functions! {
     ContextCompare "contextCompare" NotYet [
         "{intra inter all} S {world.northernmost world.southernmost world.easternmost world.westernmost world.highest world.lowest area.largest area.smallest} -> F"
     ]
-    EdgeAttrGetFloat "edgeAttr.getFloat" NotYet ["S -> F"]
-    EdgeAttrGetString "edgeAttr.getString" NotYet ["S -> S"]
-    EdgeAttrGetBool "edgeAttr.getBool" NotYet ["S -> B"]
+    EdgeAttrGetFloat "edgeAttr.getFloat" Evaluated ["S -> F"]
+    EdgeAttrGetString "edgeAttr.getString" Evaluated ["S -> S"]
+    EdgeAttrGetBool "edgeAttr.getBool" Evaluated ["S -> B"]
     Convert "convert" Evaluated [
         "{x y z} {scope pivot object world} {scope pivot object world} {pos orient} F F F -> F",
         "{scope pivot object world} {scope pivot object world} {pos orient} F[] -> F[]"
     ]
-    GetGeoCoord "getGeoCoord" NotYet ["{X Y lon lat} -> F"]
-    GetTreeKey "getTreeKey" NotYet ["-> S"]
+    GetGeoCoord "getGeoCoord" Evaluated ["{X Y lon lat} -> F"]
+    GetTreeKey "getTreeKey" Evaluated ["-> S"]
     Print "print" Evaluated ["F -> F", "B -> B", "S -> S", "F[] -> F[]", "B[] -> B[]", "S[] -> S[]"]
     FindLast "findLast" Evaluated ["S S -> F"]
     GetPrefix "getPrefix" Evaluated ["S S -> S"]

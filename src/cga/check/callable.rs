@@ -74,7 +74,10 @@ impl Body<'_, '_> {
             Value::Function(id) => fits(&self.types.functions[id.0 as usize].0, &values),
         });
         Some(match chosen.unwrap_or(first) {
-            Value::Attribute(id) => self.attribute_read(id, span),
+            Value::Attribute(id) => match values.into_iter().next() {
+                Some(edge) => self.map_read(id, edge, span),
+                None => self.attribute_read(id, span),
+            },
             Value::Function(function) => self.function_call(function, values, span),
         })
     }
@@ -89,6 +92,13 @@ impl Body<'_, '_> {
         });
         let id = own.unwrap_or(id);
         Expr { kind: ExprKind::Attribute(id), value: self.types.attributes[id.0 as usize], span }
+    }
+
+    /// `streetWidth(edge)`: an entry of the attribute's list; 0 for an edge that is not there.
+    fn map_read(&mut self, id: AttributeId, edge: Expr, span: Span) -> Expr {
+        self.require(&edge, Type::Float);
+        let array = Box::new(self.attribute_read(id, span));
+        Expr { kind: ExprKind::Index { array, row: Box::new(edge), column: None }, value: Some(Type::Float), span }
     }
 
     fn function_call(&mut self, function: FunctionId, args: Vec<Expr>, span: Span) -> Expr {

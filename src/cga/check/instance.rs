@@ -260,10 +260,14 @@ impl<'a> Tables<'a> {
         self.instances[instance].values.entry(text.text.clone()).or_default().push(value);
     }
 
-    /// The number of parameters; 0 for attributes.
+    /// The number of parameters; 0 for attributes but `streetWidth(edge)`.
     pub fn value_arity(&self, value: Value) -> usize {
         match value {
-            Value::Attribute(_) => 0,
+            Value::Attribute(id) => match self.attributes[id.0 as usize].default {
+                Default::Written(definition) => definition.parameters.as_ref().map_or(0, Vec::len),
+                Default::Propagated(outer) => self.value_arity(Value::Attribute(outer)),
+                Default::Overridden { .. } => 0,
+            },
             Value::Function(id) => self.functions[id.0 as usize].definition.parameters.as_ref().map_or(0, Vec::len),
         }
     }

@@ -154,6 +154,7 @@ fn function(tables: &Tables<'_>, types: &Types, id: usize, diagnostics: &mut Dia
 fn attribute(tables: &Tables<'_>, types: &Types, id: usize, diagnostics: &mut Diagnostics) -> program::Attribute {
     let entry = &tables.attributes[id];
     let mut locals = Vec::new();
+    let mut is_map = false;
     let mut body = match entry.default {
         Default::Overridden { scope, .. } => Body::new(tables, types, scope),
         Default::Written(_) | Default::Propagated(_) => Body::new(tables, types, entry.scope),
@@ -162,7 +163,8 @@ fn attribute(tables: &Tables<'_>, types: &Types, id: usize, diagnostics: &mut Di
     let default = match entry.default {
         Default::Written(definition) => {
             body.map_attribute(definition);
-            body.parameters(definition.parameters.as_deref().unwrap_or_default(), &[]);
+            is_map = definition.parameters.as_ref().is_some_and(|p| p.len() == 1);
+            body.parameters(definition.parameters.as_deref().unwrap_or_default(), &[Some(Type::Float)]);
             locals = body.locals(&definition.locals);
             body.expression(&definition.value)
         }
@@ -174,8 +176,9 @@ fn attribute(tables: &Tables<'_>, types: &Types, id: usize, diagnostics: &mut Di
     };
     let out = program::Attribute {
         name: entry.name.clone(),
-        kind: default.value,
+        kind: if is_map { Some(Type::Floats) } else { default.value },
         is_const: entry.is_const,
+        is_map,
         locals,
         default,
         draws: body.draws,

@@ -101,6 +101,8 @@ pub struct Attribute {
     pub kind: Option<Type>,
     /// A `const` takes neither host values nor `set`.
     pub is_const: bool,
+    /// `attr streetWidth(edge)`: the value is a list with one number per edge of the initial shape.
+    pub is_map: bool,
     pub locals: Vec<Expr>,
     pub default: Expr,
     pub draws: u32,

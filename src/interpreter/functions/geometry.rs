@@ -11,10 +11,8 @@ pub fn call(run: &Derivation, function: F, input: &Input, shape: &Shape) -> Opti
     let mesh = &shape.form.mesh;
     let number = |x: usize| Value::Float(x as f64);
     Some(match function {
-        F::GeometryArea => Value::Float(measure::area(shape, input.word(0), &run.object)),
-        F::GeometryIsOriented => {
-            Value::Bool(measure::is_oriented(shape, input.word(0).unwrap_or(Word::All), &run.object))
-        }
+        F::GeometryArea => Value::Float(measure::area(run, shape, input.word(0))),
+        F::GeometryIsOriented => Value::Bool(measure::is_oriented(run, shape, input.word(0).unwrap_or(Word::All))),
         F::GeometryAngle => {
             let (slope, normal) = measure::steepest(shape);
             Value::Float(match input.word(0) {

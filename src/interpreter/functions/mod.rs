@@ -5,9 +5,11 @@
 mod array;
 mod color;
 mod convert;
+mod edge;
 mod geometry;
 mod list;
 mod math;
+mod place;
 mod tags;
 mod text;
 
@@ -88,6 +90,8 @@ pub fn call(
         F::SplitString => text::split(run, &input),
         F::Replace => text::replace(run, &input)?,
         F::SetElems => array::set_elems(run, &input)?,
+        F::GetGeoCoord => place::geo_coordinate(run, &input, env.shape),
+        F::GetTreeKey => place::tree_key(run),
         F::Convert => convert::convert(run, &input, env.shape),
         F::FileExists => {
             let found = run.assets.locate(run.program.folder(span.source), &input.text(0));
@@ -97,6 +101,7 @@ pub fn call(
             let value = math::call(other, &input)
                 .or_else(|| geometry::call(run, other, &input, env.shape))
                 .or_else(|| tags::call(other, &input, env))
+                .or_else(|| edge::call(run, other, &input, env.shape))
                 .or_else(|| color::call(other, &input))
                 .or_else(|| array::call(other, &input))
                 .or_else(|| text::call(other, &input))

@@ -87,7 +87,7 @@ pub fn assign<'p>(
             ExprKind::Selector(word) => {
                 for (i, owner) in owners.iter_mut().enumerate() {
                     let facets = components.facets(i);
-                    if owner.is_none() && facets.iter().any(|f| facet_matches(*word, f, parent, &run.object)) {
+                    if owner.is_none() && facets.iter().any(|f| facet_matches(run, *word, f, parent)) {
                         *owner = Some(number);
                     }
                 }
