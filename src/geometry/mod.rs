@@ -18,6 +18,7 @@ pub mod plane;
 pub mod polygon;
 pub mod polygon_checks;
 pub mod predicates;
+pub mod rectangle;
 pub mod repair;
 pub mod roof;
 pub mod skeleton;

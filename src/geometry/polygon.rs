@@ -24,6 +24,20 @@ pub fn signed_area(ring: &[DVec2]) -> f64 {
     sum / 2.0
 }
 
+/// The centre of mass of a ring (about the first point); the mean of its points if it has no area.
+pub fn centroid(ring: &[DVec2]) -> DVec2 {
+    let Some(&o) = ring.first() else { return DVec2::ZERO };
+    let (mut sum, mut area) = (DVec2::ZERO, 0.0);
+    for w in ring.windows(2) {
+        let (p, q) = (w[0] - o, w[1] - o);
+        let cross = p.perp_dot(q);
+        area += cross;
+        sum += (p + q) * cross;
+    }
+    let mean = || ring.iter().map(|p| p - o).sum::<DVec2>() / ring.len() as f64;
+    o + if area == 0.0 { mean() } else { sum / (3.0 * area) }
+}
+
 impl Polygon {
     /// Area of the outer ring less the holes, square metres, whatever the directions.
     pub fn area(&self) -> f64 {

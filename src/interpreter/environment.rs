@@ -70,9 +70,14 @@ impl<'e> Env<'e> {
         self.elsewhere(slots, self.salt.part(number), 0)
     }
 
+    /// The seed of this place on this shape.
+    pub fn seed(&self) -> Seed {
+        self.shape.seed.part(self.salt.bits())
+    }
+
     /// A number in [0, 1), the same whenever this place is evaluated on this shape.
     pub fn draw(&self, site: Option<DrawSite>) -> f64 {
-        self.shape.seed.part(self.salt.bits()).part(site.map_or(0, |s| u64::from(s.0))).unit()
+        self.seed().part(site.map_or(0, |s| u64::from(s.0))).unit()
     }
 
     /// The same place with other slots: for locals, which see those before them.

@@ -38,7 +38,7 @@ forms! {
     CompConnected "the selector operator `=:`" Evaluated
     CompKeepAxes "comp(..., noAlign)" Evaluated
     CompFunction "the comp function" Evaluated
-    SplitUv "split(u | v, ...)" NotYet
+    SplitUv "split(u | v, ...)" Evaluated
     StreetSelector "street selectors" Evaluated
     UvSelector "uv selectors" NotYet
     RoofEdgeSelector "the selectors eave, hip, valley and ridge" Evaluated

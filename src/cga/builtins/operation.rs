@@ -40,7 +40,7 @@ operations! {
     AlignScopeToGeometry "alignScopeToGeometry" Evaluated [
         "{yUp zUp} F{world.lowest largest any} F{world.lowest longest}", "{yUp zUp} F{auto}"
     ]
-    AlignScopeToGeometryBBox "alignScopeToGeometryBBox" NotYet ["{xy yx xz zx yz zy}"]
+    AlignScopeToGeometryBBox "alignScopeToGeometryBBox" Evaluated ["{xy yx xz zx yz zy}"]
     Center "center" Evaluated ["{x y z xy xz yz xyz}"]
     CleanupGeometry "cleanupGeometry" Evaluated ["{vertices edges faces all} F"]
     Color "color" Evaluated ["S", "F F F F?"]
@@ -58,7 +58,7 @@ operations! {
     Extrude "extrude" Evaluated [
         "F", "{face.normal vertex.normal world.up world.up.flatTop x y z world.x world.y world.z} F"
     ]
-    Footprint "footprint" NotYet [""]
+    Footprint "footprint" Evaluated [""]
     Insert "i" Evaluated [
         "S {yUp zUp}? {alignSizeAndPosition keepSizeAndPosition keepSizeAlignPosition}? {numericalCleanup noCleanup}?"
     ]
@@ -98,7 +98,7 @@ operations! {
     RotateUv "rotateUV" Evaluated ["F F"]
     S "s" Evaluated ["F' F' F'"]
     ScaleUv "scaleUV" Evaluated ["F F F"]
-    Scatter "scatter" NotYet [
+    Scatter "scatter" Evaluated [
         "{surface volume scope} F {uniform gaussian}",
         "{surface volume scope} F {gaussian} {center front back left right top bottom} F'"
     ]
@@ -121,11 +121,11 @@ operations! {
     SoftenNormals "softenNormals" NotYet ["F"]
     Split "split" Evaluated ["{x y z} {adjust noAdjust}?", "{u v} {uvSpace unitSpace} F"]
     SplitAndSetbackPerimeter "splitAndSetbackPerimeter" NotYet ["F'", "F' F B[]"]
-    SplitArea "splitArea" NotYet ["{x y z} {adjust noAdjust}?"]
+    SplitArea "splitArea" Evaluated ["{x y z} {adjust noAdjust}?"]
     Subtract "subtract" NotYet [""]
     T "t" Evaluated ["F' F' F'"]
     Tag "tag" Evaluated ["S {auto faces edges vertices}?"]
-    Taper "taper" NotYet ["F"]
+    Taper "taper" Evaluated ["F"]
     Texture "texture" Evaluated ["S"]
     TileUv "tileUV" Evaluated ["F F~ F~"]
     Translate "translate" Evaluated ["{abs rel} {scope pivot object world} F F F"]

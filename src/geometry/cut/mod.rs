@@ -7,6 +7,7 @@
 
 mod cap;
 mod face;
+mod levels;
 mod sheet;
 
 use std::collections::BTreeMap;
@@ -15,6 +16,7 @@ use glam::DVec3;
 
 use super::{Face, Mesh, Plane};
 use face::{CutFace, Side};
+pub use levels::slice_by_value;
 use sheet::Sheet;
 
 /// Where a face of a piece comes from.

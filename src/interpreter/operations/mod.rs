@@ -3,6 +3,7 @@
 //! In: evaluated arguments and a shape. Out: the shape changed, or new shapes with the blocks to run on them.
 
 mod align_to_axes;
+mod align_to_box;
 mod align_to_geometry;
 mod appearance;
 mod args;
@@ -14,6 +15,7 @@ mod component_list;
 mod components;
 mod delete_holes;
 mod extrude;
+mod footprint;
 mod inner_rectangle;
 mod insert;
 mod insert_cleanup;
@@ -27,13 +29,20 @@ mod reset_geometry;
 mod reverse_normals;
 mod roof;
 mod roof_edges;
+mod scatter;
+mod scatter_gauss;
+mod scatter_solid;
 mod set;
 mod set_pivot;
 mod setback_tags;
 mod split;
+mod split_area;
+mod split_pattern;
 mod split_sizes;
+mod split_uv;
 mod strips;
 mod tag;
+mod taper;
 mod transform;
 mod trim;
 mod uv;
@@ -80,6 +89,9 @@ pub fn apply(
         O::ReverseNormals => reverse_normals::apply(shape),
         O::AlignScopeToAxes => align_to_axes::apply(run, &args, shape),
         O::AlignScopeToGeometry => align_to_geometry::apply(run, &args, shape),
+        O::AlignScopeToGeometryBBox => align_to_box::apply(run, &args, shape),
+        O::Footprint => footprint::apply(run, &args, shape),
+        O::Taper => taper::apply(run, &args, shape),
         O::Extrude => extrude::apply(run, &args, shape)?,
         O::Offset => offset::apply(run, &args, shape),
         O::RoofGable => roof::gable(run, &args, shape),
@@ -128,6 +140,17 @@ pub fn pieces<'p>(run: &mut Derivation<'p>, item: &'p Item, env: &Env) -> Outcom
         Item::Split { kind: SplitKind::Scope { axis, adjust }, block, span } => {
             split::along_scope(run, *axis, *adjust, block, *span, env)
         }
+        Item::Split { kind: SplitKind::Area { axis, adjust }, block, span } => {
+            split_area::by_area(run, *axis, *adjust, block, *span, env)
+        }
+        Item::Split { kind: SplitKind::Uv { v, metres, set }, block, span } => {
+            let along = split_uv::Along { v: *v, metres: *metres, set };
+            split_uv::along_texture(run, &along, block, *span, env)
+        }
+        Item::Scatter { args, body, span } => {
+            let evaluated = run.eval_args(args, env)?;
+            scatter::pieces(run, &Args::new(&evaluated, *span), body, env)
+        }
         Item::Comp { component, keep_axes, selectors, span } => {
             comp::pieces(run, *component, *keep_axes, selectors, *span, env)
         }
@@ -135,9 +158,7 @@ pub fn pieces<'p>(run: &mut Derivation<'p>, item: &'p Item, env: &Env) -> Outcom
             let evaluated = run.eval_args(args, env)?;
             regions::pieces(run, *operation, &Args::new(&evaluated, *span), selectors, env)
         }
-        Item::Split { span, .. }
-        | Item::Scatter { span, .. }
-        | Item::PerimeterSplit { span, .. }
+        Item::PerimeterSplit { span, .. }
         | Item::Modify { span, .. }
         | Item::Inline { span, .. }
         | Item::Boolean { span, .. } => {

@@ -1,13 +1,16 @@
 //! Faces made in the plane of a source face. In: plan polygons. Out: a form whose faces share equal vertices and carry
 //! the source's material and texture coordinates.
+//!
+//! Corners of the source come back as they were, bit for bit. Where the source is not flat, other points get heights
+//! from its triangles (reference A48); where its texture coordinates are not affine, they are interpolated likewise.
 
 use std::collections::BTreeMap;
 
 use glam::{DAffine2, DMat2, DVec2, DVec3};
 
 use super::super::form::Form;
-use crate::geometry::mesh::Loop;
 use crate::geometry::transform::flip_face;
+use crate::geometry::triangulate::triangulate_polygon;
 use crate::geometry::{Face, Mesh, PlaneFrame, Polygon};
 
 pub struct PlanFaces<'a> {
@@ -17,12 +20,28 @@ pub struct PlanFaces<'a> {
     known: BTreeMap<[u64; 3], u32>,
 }
 
-/// A source face: its plane and, per uv set, the map from plan to texture.
+/// A source face: its plane, its corners, and how to find height and texture between them.
 pub struct SourceFace {
     number: usize,
     frame: PlaneFrame,
-    uvs: Vec<(u8, DAffine2)>,
+    /// Of all loops, in plan.
+    points: Vec<DVec2>,
+    corners: Vec<DVec3>,
+    /// Metres in front of the plane, per corner; empty for flat faces.
+    heights: Vec<f64>,
+    /// Only where something has to be interpolated.
+    triangles: Vec<[u32; 3]>,
+    uvs: Vec<(u8, Texture)>,
 }
+
+enum Texture {
+    Affine(Vec<DVec2>, DAffine2),
+    /// Values per corner, even within each triangle.
+    Corners(Vec<DVec2>),
+}
+
+/// Heights and texture errors below this share of the extent are rounding.
+const FLAT: f64 = 1e-9;
 
 impl<'a> PlanFaces<'a> {
     pub fn new(source: &'a Form) -> Self {
@@ -30,19 +49,15 @@ impl<'a> PlanFaces<'a> {
     }
 
     pub fn face(&self, number: usize, frame: PlaneFrame) -> SourceFace {
-        let face = &self.source.mesh.faces[number];
-        let points: Vec<DVec2> =
-            face.corners().map(|v| frame.to_plan(self.source.mesh.positions[v as usize])).collect();
-        let uvs = face.uvs.iter().filter_map(|(set, uv)| Some((*set, affine(&points, uv)?))).collect();
-        SourceFace { number, frame, uvs }
+        SourceFace::new(&self.source.mesh, number, frame)
     }
 
     /// Adds a counter-clockwise polygon in the plane of its source face.
     pub fn push(&mut self, source: &SourceFace, polygon: &Polygon) {
-        let outer = self.ring(source, &polygon.outer);
-        let holes = polygon.holes.iter().map(|hole| self.ring(source, hole)).collect();
+        let outer = self.ring(source, &polygon.outer).collect();
+        let holes = polygon.holes.iter().map(|hole| self.ring(source, hole).collect()).collect();
         let corner = || polygon.rings().flatten();
-        let uvs = source.uvs.iter().map(|(set, map)| (*set, corner().map(|p| map.transform_point2(*p)).collect()));
+        let uvs = source.uvs.iter().map(|(set, map)| (*set, corner().map(|p| source.texture(map, *p)).collect()));
         self.mesh.faces.push(Face { outer, holes, uvs: uvs.collect(), normals: Vec::new() });
         self.sources.push(Some(source.number as u32));
     }
@@ -55,8 +70,8 @@ impl<'a> PlanFaces<'a> {
         }
     }
 
-    fn ring(&mut self, source: &SourceFace, ring: &[DVec2]) -> Loop {
-        ring.iter().map(|&p| self.vertex(source.frame.to_space(p, 0.0))).collect()
+    fn ring<'r>(&'r mut self, source: &'r SourceFace, ring: &'r [DVec2]) -> impl Iterator<Item = u32> + 'r {
+        ring.iter().map(|&p| self.vertex(source.position(p)))
     }
 
     fn vertex(&mut self, p: DVec3) -> u32 {
@@ -74,8 +89,87 @@ impl<'a> PlanFaces<'a> {
     }
 }
 
+impl SourceFace {
+    fn new(mesh: &Mesh, number: usize, frame: PlaneFrame) -> SourceFace {
+        let face = &mesh.faces[number];
+        let corners: Vec<DVec3> = face.corners().map(|v| mesh.positions[v as usize]).collect();
+        let points: Vec<DVec2> = corners.iter().map(|&p| frame.to_plan(p)).collect();
+        let extent = points.iter().fold(0.0, |m, p| f64::max(m, p.abs().max_element()));
+        let mut heights: Vec<f64> = corners.iter().map(|&p| (p - frame.origin).dot(frame.normal)).collect();
+        if heights.iter().all(|h| h.abs() <= FLAT * extent) {
+            heights.clear();
+        }
+        let mut uvs = Vec::with_capacity(face.uvs.len());
+        for (set, uv) in &face.uvs {
+            let fits = |map: &DAffine2| {
+                let range = uv.iter().fold(0.0, |m, p| f64::max(m, (p - uv[0]).abs().max_element()));
+                points.iter().zip(uv).all(|(p, uv)| map.transform_point2(*p).distance(*uv) <= FLAT * range)
+            };
+            if let Some(map) = texture_map(&points, uv).filter(fits) {
+                uvs.push((*set, Texture::Affine(uv.to_vec(), map)));
+            } else if uv.len() == points.len() {
+                uvs.push((*set, Texture::Corners(uv.to_vec())));
+            }
+        }
+        let uneven = uvs.iter().any(|(_, texture)| matches!(texture, Texture::Corners(_)));
+        let triangles = if heights.is_empty() && !uneven {
+            Vec::new()
+        } else {
+            triangulate_polygon(&frame.face_to_plan(mesh, face))
+        };
+        SourceFace { number, frame, points, corners, heights, triangles, uvs }
+    }
+
+    /// The corner at a plan point.
+    fn corner(&self, p: DVec2) -> Option<usize> {
+        self.points.iter().position(|q| *q == p)
+    }
+
+    fn position(&self, p: DVec2) -> DVec3 {
+        if let Some(corner) = self.corner(p) {
+            return self.corners[corner];
+        }
+        let height = if self.heights.is_empty() { 0.0 } else { self.between(p, |c| self.heights[c], |h, k| h * k) };
+        self.frame.to_space(p, height)
+    }
+
+    fn texture(&self, texture: &Texture, p: DVec2) -> DVec2 {
+        let (Texture::Affine(values, _) | Texture::Corners(values)) = texture;
+        match (self.corner(p), texture) {
+            (Some(corner), _) => values[corner],
+            (None, Texture::Affine(_, map)) => map.transform_point2(p),
+            (None, Texture::Corners(values)) => self.between(p, |c| values[c], |v, k| v * k),
+        }
+    }
+
+    /// A value of the corners, interpolated in the triangle that holds the point or comes nearest to doing so.
+    fn between<T: Default + std::ops::Add<Output = T>>(
+        &self,
+        p: DVec2,
+        value: impl Fn(usize) -> T,
+        times: impl Fn(T, f64) -> T,
+    ) -> T {
+        let mut best = ([0; 3], [0.0; 3], f64::NEG_INFINITY);
+        for triangle in &self.triangles {
+            let [a, b, c] = triangle.map(|i| self.points[i as usize]);
+            let area = (b - a).perp_dot(c - a);
+            let weights =
+                [(b - p).perp_dot(c - p) / area, (c - p).perp_dot(a - p) / area, (a - p).perp_dot(b - p) / area];
+            let inside = weights[0].min(weights[1]).min(weights[2]);
+            if inside > best.2 {
+                best = (*triangle, weights, inside);
+            }
+        }
+        let mut sum = T::default();
+        for (corner, weight) in best.0.into_iter().zip(best.1) {
+            sum = sum + times(value(corner as usize), weight);
+        }
+        sum
+    }
+}
+
 /// The affine map that takes three far-apart points to their values; `None` if all lie on a line.
-fn affine(points: &[DVec2], values: &[DVec2]) -> Option<DAffine2> {
+pub fn texture_map(points: &[DVec2], values: &[DVec2]) -> Option<DAffine2> {
     let (&origin, &value) = (points.first()?, values.first()?);
     let far = |i: &usize| (points[*i] - origin).length_squared();
     let second = (0..points.len()).max_by(|a, b| far(a).total_cmp(&far(b)))?;

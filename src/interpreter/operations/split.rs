@@ -8,15 +8,14 @@ use glam::DVec3;
 use super::super::derivation::Derivation;
 use super::super::environment::Env;
 use super::super::form::Form;
-use super::super::limits::{Outcome, Stop};
+use super::super::limits::Outcome;
 use super::super::shape::{Scope, Shape};
-use super::Pieces;
-use super::split_sizes::{Block, Size, Slab, resolve};
-use crate::cga::program::{Axis, Prefix, SplitBlock, SplitItem, Successor};
+use super::{Pieces, split_pattern};
+use crate::cga::program::{Axis, SplitBlock};
 use crate::geometry::cut::{self, Origin};
 use crate::source::Span;
 
-/// Splits the current shape along an axis of its scope.
+/// Splits the current shape along an axis of its scope. Slabs without geometry give no piece (reference A11).
 pub fn along_scope<'p>(
     run: &mut Derivation<'p>,
     axis: Axis,
@@ -27,74 +26,33 @@ pub fn along_scope<'p>(
 ) -> Outcome<Pieces<'p>> {
     let mut parent = env.shape.clone();
     parent.bake();
-    let axis = match axis {
+    let axis = axis_number(axis);
+    let total = parent.scope.size[axis].abs();
+    let layout = split_pattern::lay_out(run, block, total, span, env)?;
+    let slabs: Vec<(f64, f64)> = layout.slabs.iter().map(|s| (s.start, s.end)).collect();
+    let forms = cut_at(&parent, axis, &slabs);
+    Ok(layout.pieces(forms, &parent, |i, form| piece(&parent, axis, slabs[i], form, adjust)))
+}
+
+/// Position of an axis in vectors.
+pub fn axis_number(axis: Axis) -> usize {
+    match axis {
         Axis::X => 0,
         Axis::Y => 1,
         Axis::Z => 2,
-    };
-    let mut bodies = Vec::new();
-    let blocks = evaluate(run, block, &mut bodies, env)?;
-    let pattern = [Block::Group { blocks, repeat: block.repeat }];
-    let total = parent.scope.size[axis].abs();
-    let Ok(slabs) = resolve(&pattern, total, run.shapes_left()) else {
-        run.count_shapes(usize::MAX, span)?;
-        return Err(Stop);
-    };
-    run.count_shapes(slabs.len(), span)?;
-    let forms = cut_at(&parent, axis, &slabs);
-    let mut pieces: Pieces<'p> = Vec::with_capacity(slabs.len());
-    for (slab, form) in slabs.iter().zip(forms) {
-        if form.is_empty() && !parent.form.is_empty() {
-            continue;
-        }
-        pieces.push((piece(&parent, axis, slab, form, adjust), bodies[slab.body]));
     }
-    let split_total = pieces.len() as f64;
-    for (index, (piece, _)) in pieces.iter_mut().enumerate() {
-        piece.lineage.split_index = index as f64;
-        piece.lineage.split_total = split_total;
-    }
-    Ok(pieces)
 }
 
-/// Evaluates every size once, in source order.
-fn evaluate<'p>(
-    run: &mut Derivation<'p>,
-    block: &'p SplitBlock,
-    bodies: &mut Vec<&'p Successor>,
-    env: &Env,
-) -> Outcome<Vec<Block>> {
-    let mut blocks = Vec::with_capacity(block.items.len());
-    for item in &block.items {
-        blocks.push(match item {
-            SplitItem::Piece { prefix, size, body } => {
-                let x = run.eval_finite(size, env)?;
-                bodies.push(body);
-                let size = match prefix {
-                    Prefix::Absolute => Size::Absolute(x),
-                    Prefix::Relative => Size::Relative(x),
-                    Prefix::Floating => Size::Floating(x),
-                };
-                Block::Piece { size, body: bodies.len() - 1 }
-            }
-            SplitItem::Group(group) => {
-                Block::Group { blocks: evaluate(run, group, bodies, env)?, repeat: group.repeat }
-            }
-        });
-    }
-    Ok(blocks)
-}
-
-/// The geometry of every slab. What lies before the first slab goes to it, what lies behind the end of the scope to
+/// The geometry of every slab (start and end in metres along the axis). What lies before the first slab goes to it, what lies behind the end of the scope to
 /// the last one if that reaches the end.
-fn cut_at(parent: &Shape, axis: usize, slabs: &[Slab]) -> Vec<Form> {
+pub fn cut_at(parent: &Shape, axis: usize, slabs: &[(f64, f64)]) -> Vec<Form> {
     let Some(last) = slabs.last() else { return Vec::new() };
     let size = parent.scope.size[axis];
     let normal = parent.scope.frame.axes.col(axis) * size.signum();
     let base = normal.dot(parent.scope.frame.origin);
-    let reaches_end = last.end >= size.abs();
+    let reaches_end = last.1 >= size.abs();
     let inner = slabs.len() - usize::from(reaches_end);
-    let boundaries: Vec<f64> = slabs[..inner].iter().map(|s| base + s.end).collect();
+    let boundaries: Vec<f64> = slabs[..inner].iter().map(|s| base + s.1).collect();
     if parent.form.mesh.faces.is_empty() {
         return cut_edges(&parent.form, normal, &boundaries, slabs.len());
     }
@@ -150,12 +108,12 @@ fn cut_edges(form: &Form, normal: DVec3, boundaries: &[f64], pieces: usize) -> V
 }
 
 /// The shape of a slab: fitted to its geometry, or (`noAdjust`) the slab of the parent's box. Signs of sizes stay.
-fn piece(parent: &Shape, axis: usize, slab: &Slab, form: Form, adjust: bool) -> Shape {
+pub fn piece(parent: &Shape, axis: usize, (start, end): (f64, f64), form: Form, adjust: bool) -> Shape {
     let mut shape = parent.clone();
     let mut scope = parent.scope;
     let sign = parent.scope.size[axis].signum();
-    scope.frame.origin += scope.frame.axes.col(axis) * (slab.start * sign);
-    scope.size[axis] = (slab.end - slab.start) * sign;
+    scope.frame.origin += scope.frame.axes.col(axis) * (start * sign);
+    scope.size[axis] = (end - start) * sign;
     if adjust {
         scope =
             Scope::around(&form.mesh.positions, scope.frame.axes).map_or(scope, |fit| signed(fit, parent.scope.size));

@@ -26,12 +26,20 @@ pub struct Slab {
     pub end: f64,
 }
 
+/// The pieces of a pattern.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Resolved {
+    pub slabs: Vec<Slab>,
+    /// A size above 0 that was asked for but is below [`LEAST`]: no piece is made of it.
+    pub too_thin: Option<f64>,
+}
+
 /// The pattern gives more pieces than allowed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TooMany;
 
-/// Sizes below this are nothing (numerics section 3, `min_size`).
-const LEAST: f64 = 1e-6;
+/// Sizes below this are nothing (reference 4.3.1; numerics section 3, `min_size`).
+pub const LEAST: f64 = 1e-6;
 /// Ties of the repeat count go to the smaller number.
 const TIE: f64 = 1e-9;
 
@@ -54,7 +62,7 @@ impl Sums {
 }
 
 /// Lays the blocks out over `total` metres. Repeats take the count whose real sizes are nearest to the wanted ones.
-pub fn resolve(blocks: &[Block], total: f64, most: usize) -> Result<Vec<Slab>, TooMany> {
+pub fn resolve(blocks: &[Block], total: f64, most: usize) -> Result<Resolved, TooMany> {
     let mut layout = Layout { total, counts: vec![1.0; count_groups(blocks)], fill: None, fill_room: 0.0 };
     let depth = depth(blocks);
     for level in 0..depth {
@@ -176,7 +184,7 @@ impl Layout {
         }
     }
 
-    fn slabs(&mut self, blocks: &[Block], most: usize) -> Result<Vec<Slab>, TooMany> {
+    fn slabs(&mut self, blocks: &[Block], most: usize) -> Result<Resolved, TooMany> {
         let mut sums = self.all(blocks);
         if let Some(group) = self.fill {
             self.counts[group] = 0.0;
@@ -192,9 +200,9 @@ impl Layout {
         }
         let room = self.total - sums.fixed;
         let scale = if sums.floating > 0.0 && room > 0.0 { room / sums.floating } else { 0.0 };
-        let mut cursor = Cursor { total: self.total, position: 0.0, lost: 0.0, slabs: Vec::new() };
+        let mut cursor = Cursor { total: self.total, position: 0.0, lost: 0.0, out: Resolved::default() };
         self.lay(blocks, &mut 0, scale, f64::INFINITY, &mut cursor);
-        Ok(cursor.slabs)
+        Ok(cursor.out)
     }
 
     /// Lays the blocks out, cut off at `end`.
@@ -204,7 +212,13 @@ impl Layout {
                 Block::Piece { size, body } => {
                     let length = match size {
                         Size::Floating(weight) => weight.max(0.0) * scale,
-                        fixed => self.fixed(*fixed),
+                        fixed => {
+                            let length = self.fixed(*fixed);
+                            if length > 0.0 && length < LEAST {
+                                cursor.out.too_thin = Some(length);
+                            }
+                            length
+                        }
                     };
                     cursor.place(*body, length.min(end - cursor.position));
                 }
@@ -227,7 +241,7 @@ struct Cursor {
     total: f64,
     position: f64,
     lost: f64,
-    slabs: Vec<Slab>,
+    out: Resolved,
 }
 
 impl Cursor {
@@ -242,7 +256,7 @@ impl Cursor {
         self.lost = (sum - start) - corrected;
         self.position = sum;
         let end = if sum > self.total - least { self.total } else { sum };
-        self.slabs.push(Slab { body, start, end });
+        self.out.slabs.push(Slab { body, start, end });
     }
 }
 
