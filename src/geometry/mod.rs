@@ -12,6 +12,7 @@ pub mod grid;
 mod hard_cases;
 pub mod mesh;
 pub mod mesh_checks;
+pub mod normals;
 pub mod offset;
 pub mod orientation;
 pub mod plane;

@@ -20,6 +20,7 @@ mod inner_rectangle;
 mod insert;
 mod insert_cleanup;
 mod mirror;
+mod normals;
 mod offset;
 mod plan_faces;
 mod primitive;
@@ -122,6 +123,8 @@ pub fn apply(
         O::DeleteUv => uv::delete(run, &args, shape),
         O::NormalizeUv => uv_tiling::normalize(run, &args, shape),
         O::TileUv => uv_tiling::tile(run, &args, shape),
+        O::SetNormals => normals::set(&args, shape),
+        O::SoftenNormals => normals::soften_below(run, &args, shape),
         O::Tag => tag::tag(run, &args, shape),
         O::DeleteTags => tag::delete(&args, shape),
         O::Report => report::report(run, &args),
