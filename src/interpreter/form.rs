@@ -38,10 +38,11 @@ impl Form {
         self.mesh.positions.is_empty()
     }
 
-    /// Takes the faces' corner normals along under a linear map of the positions.
+    /// Takes the faces' corner normals along under a linear map of the positions. Loops stay, so a map that mirrors
+    /// turns faces inside out, and their normals with them.
     pub fn turn_corner_normals(&mut self, map: DMat3) {
         if self.mesh.faces.iter().any(|f| !f.normals.is_empty()) {
-            let turn = normals_under(map);
+            let turn = normals_under(map) * map.determinant().signum();
             let normals = self.mesh.faces.iter_mut().flat_map(|f| &mut f.normals);
             normals.for_each(|n| *n = (turn * *n).normalize_or(*n));
         }

@@ -6,6 +6,7 @@ mod expressions;
 mod flat;
 mod frames;
 mod limits;
+mod normals;
 mod planar;
 mod properties;
 mod random;

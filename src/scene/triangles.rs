@@ -25,12 +25,13 @@ impl Builder {
             return;
         }
         let uvs = face.uv(0);
+        let corner_normal = |corner: usize| face.normals.get(corner).map_or(normal, |n| n.as_vec3());
         let run = self.run(material);
         let first = run.positions.len() as u32;
         // Triangles index the face's corners: the outer loop, then the holes.
         for (corner, index) in face.loops().flatten().enumerate() {
             run.positions.push(mesh.positions[*index as usize] + lift);
-            run.normals.push(normal);
+            run.normals.push(corner_normal(corner));
             run.uvs.push(uvs.map_or(Vec2::ZERO, |uvs| uvs[corner].as_vec2()));
         }
         run.triangles.extend(triangles.iter().map(|t| t.map(|corner| first + corner)));

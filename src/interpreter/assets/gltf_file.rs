@@ -1,15 +1,17 @@
 //! glTF 2.0. In: the bytes of a `.gltf` or `.glb` file. Out: its triangles in scene coordinates with texture
-//! coordinates and material colours. Points, lines, skins and animations are left out.
+//! coordinates, normals, material colours, and a group per named node (or mesh). Points, lines, skins and animations are left out.
 
 use std::path::Path;
 
-use glam::{DMat4, DVec2, DVec3};
+use glam::{DMat3, DMat4, DVec2, DVec3};
 use gltf::mesh::Mode;
 
 use super::AssetError;
 use crate::geometry::Face;
+use crate::geometry::transform::normals_under;
 use crate::interpreter::appearance::Appearance;
 use crate::interpreter::form::Form;
+use crate::interpreter::labels::GroupList;
 use crate::source::Access;
 
 pub fn read(name: &str, bytes: &[u8], folder: &Path, access: &Access) -> Result<Form, AssetError> {
@@ -23,7 +25,13 @@ pub fn read(name: &str, bytes: &[u8], folder: &Path, access: &Access) -> Result<
         }
     }
     let buffers = gltf::import_buffers(&gltf.document, Some(folder), gltf.blob).map_err(|e| wrong(e.to_string()))?;
-    let mut reader = Reader { buffers: &buffers, form: Form::default(), has_uvs: true };
+    let mut reader = Reader {
+        buffers: &buffers,
+        form: Form::default(),
+        groups: GroupList::default(),
+        has_uvs: true,
+        has_normals: true,
+    };
     let document = &gltf.document;
     match document.default_scene().or_else(|| document.scenes().next()) {
         Some(scene) => scene.nodes().try_for_each(|node| reader.node(&node, DMat4::IDENTITY, 0)),
@@ -34,6 +42,10 @@ pub fn read(name: &str, bytes: &[u8], folder: &Path, access: &Access) -> Result<
     if !reader.has_uvs {
         form.mesh.faces.iter_mut().for_each(|f| f.uvs.clear());
     }
+    if !reader.has_normals {
+        form.mesh.faces.iter_mut().for_each(|f| f.normals.clear());
+    }
+    form.labels = reader.groups.into_labels();
     form.materials = document.materials().map(|m| appearance(&m, folder)).collect();
     form.instanced = true;
     Ok(form)
@@ -42,7 +54,9 @@ pub fn read(name: &str, bytes: &[u8], folder: &Path, access: &Access) -> Result<
 struct Reader<'a> {
     buffers: &'a [gltf::buffer::Data],
     form: Form,
+    groups: GroupList,
     has_uvs: bool,
+    has_normals: bool,
 }
 
 /// Nodes within nodes; deeper files are refused.
@@ -55,6 +69,7 @@ impl Reader<'_> {
         }
         let own = glam::Mat4::from_cols_array_2d(&node.transform().matrix()).as_dmat4();
         let world = above * own;
+        self.groups.begin(node.name().or(node.mesh().and_then(|mesh| mesh.name())).unwrap_or(""));
         for primitive in node.mesh().iter().flat_map(|mesh| mesh.primitives()) {
             self.primitive(&primitive, &world)?;
         }
@@ -80,6 +95,11 @@ impl Reader<'_> {
         let uvs: Option<Vec<DVec2>> = reader
             .read_tex_coords(0)
             .map(|set| set.into_f32().map(|[u, v]| DVec2::new(f64::from(u), 1.0 - f64::from(v))).collect());
+        let mirrored = world.determinant() < 0.0;
+        let turn = normals_under(DMat3::from_mat4(*world));
+        let normals: Option<Vec<DVec3>> = reader
+            .read_normals()
+            .map(|list| list.map(|n| (turn * glam::Vec3::from_array(n).as_dvec3()).normalize_or_zero()).collect());
         let indices: Vec<u32> = match reader.read_indices() {
             Some(indices) => indices.into_u32().collect(),
             None => (0..count).collect(),
@@ -91,10 +111,19 @@ impl Reader<'_> {
         let material = primitive.material().index().map_or(0, |i| i as u16 + 1);
         let uvs = uvs.filter(|uv| uv.len() == count as usize);
         self.has_uvs &= uvs.is_some();
-        for corners in triangles(primitive.mode(), &indices) {
+        let sound = |list: &Vec<DVec3>| list.len() == count as usize && list.iter().all(|n| n.is_normalized());
+        let normals = normals.filter(sound);
+        self.has_normals &= normals.is_some();
+        for mut corners in triangles(primitive.mode(), &indices) {
+            if mirrored {
+                corners.swap(1, 2);
+            }
             let outer = corners.map(|i| i + start);
             let set = uvs.as_ref().map(|uv| (0, corners.map(|i| uv[i as usize]).as_slice().into()));
-            self.form.mesh.faces.push(Face { uvs: set.into_iter().collect(), ..Face::new(outer.as_slice()) });
+            let normals = normals.iter().flat_map(|list| corners.map(|i| list[i as usize])).collect();
+            let uvs = set.into_iter().collect();
+            self.form.mesh.faces.push(Face { uvs, normals, ..Face::new(outer.as_slice()) });
+            self.groups.add_face();
             self.form.face_materials.push(material);
         }
         Ok(())

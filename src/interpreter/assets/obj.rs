@@ -1,8 +1,8 @@
-//! Wavefront OBJ. In: the bytes of a file and a way to its material libraries. Out: faces with texture coordinates and
-//! materials, or the line that is wrong.
+//! Wavefront OBJ. In: the bytes of a file and a way to its material libraries. Out: faces with texture coordinates,
+//! normals, groups and materials, or the line that is wrong.
 //!
-//! Read: `v`, `vt`, `f` (also negative indices), `usemtl`, `mtllib`; of libraries `Kd`, `d`, `Tr`, `map_Kd`. All other
-//! statements are skipped.
+//! Read: `v`, `vt`, `vn`, `f` (also negative indices), `g` (the first name), `usemtl`, `mtllib`; of libraries `Kd`, `d`,
+//! `Tr`, `map_Kd`. All other statements are skipped.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -14,11 +14,14 @@ use crate::geometry::Face;
 use crate::geometry::mesh::{CornerUvs, Loop, UvSets};
 use crate::interpreter::appearance::Appearance;
 use crate::interpreter::form::Form;
+use crate::interpreter::labels::GroupList;
 
 /// Builds the form while the file is read.
 struct Reader<'a> {
     name: &'a str,
     texture: Vec<DVec2>,
+    normals: Vec<DVec3>,
+    groups: GroupList,
     form: Form,
     materials: Vec<(String, Appearance)>,
     current: u16,
@@ -31,7 +34,15 @@ pub fn read(
     library: &dyn Fn(&str) -> Option<Vec<u8>>,
 ) -> Result<Form, AssetError> {
     let text = String::from_utf8_lossy(bytes);
-    let mut reader = Reader { name, texture: Vec::new(), form: Form::default(), materials: Vec::new(), current: 0 };
+    let mut reader = Reader {
+        name,
+        texture: Vec::new(),
+        normals: Vec::new(),
+        groups: GroupList::default(),
+        form: Form::default(),
+        materials: Vec::new(),
+        current: 0,
+    };
     for (number, line) in text.lines().enumerate() {
         let (keyword, rest) = line.trim().split_once(char::is_whitespace).unwrap_or((line.trim(), ""));
         match keyword {
@@ -43,6 +54,11 @@ pub fn read(
                 let uv = reader.numbers::<2>(rest, number)?;
                 reader.texture.push(DVec2::from_array(uv));
             }
+            "vn" => {
+                let n = reader.numbers::<3>(rest, number)?;
+                reader.normals.push(DVec3::from_array(n).normalize_or_zero());
+            }
+            "g" => reader.groups.begin(rest.split_whitespace().next().unwrap_or("")),
             "f" => reader.face(rest, number)?,
             "mtllib" => {
                 let materials = library(rest.trim()).map(|bytes| library_materials(&bytes, folder));
@@ -81,6 +97,7 @@ impl Reader<'_> {
     fn face(&mut self, rest: &str, line: usize) -> Result<(), AssetError> {
         let mut outer = Loop::new();
         let mut uv = CornerUvs::new();
+        let mut normals = Vec::new();
         for corner in rest.split_whitespace() {
             let mut parts = corner.split('/');
             let position = parts.next().unwrap_or("");
@@ -88,12 +105,19 @@ impl Reader<'_> {
             if let Some(texture) = parts.next().filter(|t| !t.is_empty()) {
                 uv.push(self.texture[self.index(texture, self.texture.len(), line)?]);
             }
+            if let Some(normal) = parts.next().filter(|n| !n.is_empty()) {
+                normals.push(self.normals[self.index(normal, self.normals.len(), line)?]);
+            }
         }
         if outer.len() < 3 {
             return Err(self.error(line, "a face needs three corners"));
         }
         let uvs = if uv.len() == outer.len() { [(0, uv)].into() } else { UvSets::new() };
-        self.form.mesh.faces.push(Face { uvs, ..Face::new(outer) });
+        if normals.len() != outer.len() || normals.contains(&DVec3::ZERO) {
+            normals.clear();
+        }
+        self.form.mesh.faces.push(Face { uvs, normals, ..Face::new(outer) });
+        self.groups.add_face();
         self.form.face_materials.push(self.current);
         Ok(())
     }
@@ -108,12 +132,16 @@ impl Reader<'_> {
         self.current = u16::try_from(place + 1).unwrap_or(0);
     }
 
-    /// Texture coordinates are kept only where all faces have them; unused vertices go.
+    /// Texture coordinates and normals are kept only where all faces have them; unused vertices go.
     fn finish(self) -> Form {
         let mut form = self.form;
         if !form.mesh.faces.iter().all(|f| !f.uvs.is_empty()) {
             form.mesh.faces.iter_mut().for_each(|f| f.uvs.clear());
         }
+        if !form.mesh.faces.iter().all(|f| !f.normals.is_empty()) {
+            form.mesh.faces.iter_mut().for_each(|f| f.normals.clear());
+        }
+        form.labels = self.groups.into_labels();
         if form.face_materials.iter().all(|&m| m == 0) {
             form.face_materials.clear();
         }
@@ -169,6 +197,19 @@ mod tests {
         assert_eq!(form.materials[0].color, [Some(1.0), Some(0.0), Some(0.0)]);
         assert_eq!(form.materials[0].opacity, Some(0.5));
         assert_eq!(form.mesh.faces[0].uv(0).map(<[DVec2]>::len), Some(3));
+    }
+
+    #[test]
+    fn reads_groups_and_normals() {
+        let form = parse(
+            "v 0 0 0\nv 1 0 0\nv 1 0 1\nvn 0 2 0\ng roof extra\nf 1//1 2//1 3//1\ng wall\nf 3//1 2//1 1//-1\ng\nf 1//1 2//1 3//1\n",
+        );
+        let form = form.expect("the file is sound");
+        let groups: Vec<_> = (0..3).map(|f| form.group_name(form.group(f)).to_string()).collect();
+        assert_eq!(groups, ["roof", "wall", ""]);
+        assert_eq!(form.mesh.faces[1].normals, [DVec3::Y; 3]);
+        let some = parse("v 0 0 0\nv 1 0 0\nv 1 0 1\nvn 0 2 0\nf 1//1 2//1 3//1\nf 1 2 3\n").expect("sound too");
+        assert!(some.mesh.faces.iter().all(|f| f.normals.is_empty()), "all or none");
     }
 
     #[test]

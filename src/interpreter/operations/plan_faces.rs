@@ -32,6 +32,8 @@ pub struct SourceFace {
     /// Only where something has to be interpolated.
     triangles: Vec<[u32; 3]>,
     uvs: Vec<(u8, Texture)>,
+    /// Per corner; empty for faces shaded flat.
+    normals: Vec<DVec3>,
 }
 
 enum Texture {
@@ -58,7 +60,9 @@ impl<'a> PlanFaces<'a> {
         let holes = polygon.holes.iter().map(|hole| self.ring(source, hole).collect()).collect();
         let corner = || polygon.rings().flatten();
         let uvs = source.uvs.iter().map(|(set, map)| (*set, corner().map(|p| source.texture(map, *p)).collect()));
-        self.mesh.faces.push(Face { outer, holes, uvs: uvs.collect(), normals: Vec::new() });
+        let shaded = !source.normals.is_empty();
+        let normals = corner().filter(|_| shaded).map(|p| source.normal(*p)).collect();
+        self.mesh.faces.push(Face { outer, holes, uvs: uvs.collect(), normals });
         self.sources.push(Some(source.number as u32));
     }
 
@@ -112,12 +116,13 @@ impl SourceFace {
             }
         }
         let uneven = uvs.iter().any(|(_, texture)| matches!(texture, Texture::Corners(_)));
-        let triangles = if heights.is_empty() && !uneven {
+        let normals = if face.normals.len() == points.len() { face.normals.clone() } else { Vec::new() };
+        let triangles = if heights.is_empty() && !uneven && normals.is_empty() {
             Vec::new()
         } else {
             triangulate_polygon(&frame.face_to_plan(mesh, face))
         };
-        SourceFace { number, frame, points, corners, heights, triangles, uvs }
+        SourceFace { number, frame, points, corners, heights, triangles, uvs, normals }
     }
 
     /// The corner at a plan point.
@@ -139,6 +144,13 @@ impl SourceFace {
             (Some(corner), _) => values[corner],
             (None, Texture::Affine(_, map)) => map.transform_point2(p),
             (None, Texture::Corners(values)) => self.between(p, |c| values[c], |v, k| v * k),
+        }
+    }
+
+    fn normal(&self, p: DVec2) -> DVec3 {
+        match self.corner(p) {
+            Some(corner) => self.normals[corner],
+            None => self.between(p, |c| self.normals[c], |n, k| n * k).normalize_or(self.frame.normal),
         }
     }
 

@@ -1,6 +1,6 @@
 //! The primitives (reference 4.10). In: dimensions, or none. Out: the primitive in the scope, with texture set 0.
 
-use glam::{DVec2, DVec3};
+use glam::{DMat3, DVec2, DVec3};
 
 use super::super::assets::Asset;
 use super::super::derivation::Derivation;
@@ -48,6 +48,7 @@ fn place(shape: &mut Shape, form: Form, size: Option<DVec3>) {
         let factor = DVec3::new(factor(0), factor(1), factor(2));
         let mut form = asset.form;
         form.mesh.positions.iter_mut().for_each(|p| *p = scope.frame.world_from_local((*p - asset.low) * factor));
+        form.turn_corner_normals(scope.frame.axes * DMat3::from_diagonal(factor));
         shape.replace_in_scope(form);
         return;
     }
@@ -106,7 +107,7 @@ pub fn cylinder(run: &mut Derivation, args: &Args, shape: &mut Shape) {
     for i in 0..n {
         let (j, u0, u1) = ((i + 1) % n, around(i, n), around(i + 1, n));
         let uv = [DVec2::new(u0, 0.0), DVec2::new(u1, 0.0), DVec2::new(u1, 1.0), DVec2::new(u0, 1.0)];
-        mesh.faces.push(textured([i, j, j + n, i + n], uv));
+        mesh.faces.push(smooth(textured([i, j, j + n, i + n], uv), &mesh, |p| p.with_y(0.0)));
     }
     place_round(shape, mesh, radius, height);
 }
@@ -121,7 +122,9 @@ pub fn cone(run: &mut Derivation, args: &Args, shape: &mut Shape) {
     for i in 0..n {
         let (u0, u1) = (around(i, n), around(i + 1, n));
         let uv = vec![DVec2::new(u0, 0.0), DVec2::new(u1, 0.0), DVec2::new((u0 + u1) / 2.0, 1.0)];
-        mesh.faces.push(textured([i, (i + 1) % n, n].as_slice(), uv));
+        let middle = (mesh.positions[i as usize] + mesh.positions[(i + 1) as usize % n as usize]).normalize();
+        let slope = |p: DVec3| if p == DVec3::Y { middle + DVec3::Y } else { p.with_y(1.0) };
+        mesh.faces.push(smooth(textured([i, (i + 1) % n, n].as_slice(), uv), &mesh, slope));
     }
     place_round(shape, mesh, radius, height);
 }
@@ -153,7 +156,8 @@ pub fn sphere(run: &mut Derivation, args: &Args, shape: &mut Shape) {
                 vec![(at(k, i), u0, v0), (at(k, i + 1), u1, v0), (at(k + 1, i + 1), u1, v1), (at(k + 1, i), u0, v1)];
             corners.dedup_by_key(|c| c.0);
             let uv: CornerUvs = corners.iter().map(|c| DVec2::new(c.1, c.2)).collect();
-            mesh.faces.push(textured(corners.iter().map(|c| c.0).collect::<Loop>(), uv));
+            let face = textured(corners.iter().map(|c| c.0).collect::<Loop>(), uv);
+            mesh.faces.push(smooth(face, &mesh, |p| p));
         }
     }
     place_round(shape, mesh, radius, 2.0 * radius.unwrap_or(1.0).abs());
@@ -173,6 +177,12 @@ const UNIT_UV: [DVec2; 4] = [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y];
 
 fn textured(outer: impl Into<Loop>, uv: impl Into<CornerUvs>) -> Face {
     Face { uvs: [(0, uv.into())].into(), ..Face::new(outer) }
+}
+
+/// The face with normals in the directions given for its corners' positions.
+fn smooth(face: Face, mesh: &Mesh, direction: impl Fn(DVec3) -> DVec3) -> Face {
+    let normals = face.corners().map(|v| direction(mesh.positions[v as usize]).normalize_or(DVec3::Y)).collect();
+    Face { normals, ..face }
 }
 
 fn around(i: u32, n: u32) -> f64 {
