@@ -1,17 +1,32 @@
-//! Geometry files for `i()` and texture paths. In: a name written in a rule file and its folder. Out: an [`Asset`] in
-//! its own coordinates, read once per run, or a typed refusal.
+//! Files that rules name: geometry, textures, texts, tables, materials. In: a name written in a rule file and the
+//! file's folder. Out: what the file holds, or a typed refusal.
 
+mod cache;
+mod contents;
+mod files;
 mod gltf_file;
+mod image_file;
+mod material_file;
+mod mtl;
 mod obj;
+mod query;
+mod table;
+#[cfg(test)]
+mod tests;
+mod text_file;
 
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::path::Path;
+use std::sync::Arc;
 
 use glam::DVec3;
 
 use super::form::Form;
-use crate::source::{Access, AccessError};
+use super::tree::Scalar;
+use super::value::Array;
+pub use contents::Contents;
+pub use files::FileAssets;
+pub use image_file::{BUILTIN_IMAGES, ImageInfo};
 
 /// A geometry file.
 #[derive(Debug)]
@@ -21,9 +36,17 @@ pub struct Asset {
     /// Least corner and size of its box.
     pub low: DVec3,
     pub size: DVec3,
+    /// Names of the groups, in the order of their first faces.
+    pub groups: Vec<Arc<str>>,
+    /// Index into `groups` plus one per face, 0 for none; empty where there are no groups.
+    pub face_groups: Vec<u16>,
+    /// Single values that the file tells about itself.
+    pub metadata: BTreeMap<Arc<str>, Scalar>,
+    /// What of the file could not be used.
+    pub notes: Vec<String>,
 }
 
-/// Why a geometry file cannot be inserted.
+/// Why a file cannot be used.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum AssetError {
     #[error("`{0}` was not found")]
@@ -32,27 +55,71 @@ pub enum AssetError {
     NotReadable(String, String),
     #[error("`{0}` is no geometry format that is read (.obj, .gltf, .glb)")]
     UnknownFormat(String),
+    #[error("`{0}` is no {1} file")]
+    WrongKind(String, &'static str),
     #[error("`{name}` line {line}: {message}")]
     Obj { name: String, line: usize, message: String },
     #[error("`{0}`: {1}")]
     Gltf(String, String),
     #[error("`{0}` is larger than {1} bytes")]
     TooLarge(String, u64),
+    #[error("{0}")]
+    Query(String),
 }
 
-/// Where assets come from.
+/// Name and value pairs of a material, as `setMaterial` takes them.
+pub type Pairs = Vec<(Arc<str>, Arc<str>)>;
+
+/// How a reader gets at other files.
+pub struct Files<'a> {
+    /// The bytes of a file by its name in the one that is read.
+    pub read: &'a dyn Fn(&str) -> Result<Vec<u8>, String>,
+    /// The name that textures are loaded by, of a file by its name in the one that is read.
+    pub place: &'a dyn Fn(&str) -> String,
+    /// The same of an image inside the file, by its number.
+    pub embedded: &'a dyn Fn(usize) -> String,
+}
+
+/// Where files come from. `folder` is that of the rule file that names them.
 pub trait Assets: Sync {
     /// The path of an existing file as the host knows it, or `None`.
     fn locate(&self, folder: &Path, name: &str) -> Option<Arc<str>>;
 
     /// The geometry of a file.
-    ///
-    /// # Errors
-    /// See [`AssetError`].
     fn load(&self, folder: &Path, name: &str) -> Result<Arc<Asset>, AssetError>;
+
+    /// The path that rules see of a path that [`Assets::locate`] gave.
+    fn shown(&self, _folder: &Path, located: &Arc<str>) -> Arc<str> {
+        located.clone()
+    }
+
+    /// Workspace paths of all files that a query matches, sorted (reference 6.5).
+    fn search(&self, _folder: &Path, _query: &str) -> Result<Arc<[Arc<str>]>, AssetError> {
+        Ok(Arc::default())
+    }
+
+    /// Size and channels of an image.
+    fn image(&self, _folder: &Path, name: &str) -> Result<ImageInfo, AssetError> {
+        Err(AssetError::NotFound(name.to_owned()))
+    }
+
+    /// A text with line ends `\n`.
+    fn text(&self, _folder: &Path, name: &str) -> Result<Arc<str>, AssetError> {
+        Err(AssetError::NotFound(name.to_owned()))
+    }
+
+    /// A table of at most `most` cells.
+    fn table(&self, _folder: &Path, name: &str, _most: usize) -> Result<Arc<Array<Arc<str>>>, AssetError> {
+        Err(AssetError::NotFound(name.to_owned()))
+    }
+
+    /// A material file.
+    fn material(&self, _folder: &Path, name: &str) -> Result<Arc<Pairs>, AssetError> {
+        Err(AssetError::NotFound(name.to_owned()))
+    }
 }
 
-/// A host without files: textures keep their names, geometry is refused.
+/// A host without files: textures keep their names, everything else is refused.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct NoAssets;
 
@@ -66,88 +133,24 @@ impl Assets for NoAssets {
     }
 }
 
-/// Files inside the allowed folders; each is read once.
-#[derive(Debug)]
-pub struct FileAssets {
-    access: Access,
-    read: Mutex<BTreeMap<PathBuf, Result<Arc<Asset>, AssetError>>>,
-}
-
-/// Larger geometry files are refused.
-const MOST_BYTES: u64 = 64 << 20;
-
-impl FileAssets {
-    pub fn new(access: Access) -> Self {
-        FileAssets { access, read: Mutex::default() }
-    }
-
-    /// Reference 4.0.6: beside the rule file, in its `assets` folder, and the same one folder up; a leading `/` starts
-    /// at the first allowed folder.
-    fn resolve(&self, folder: &Path, name: &str) -> Result<PathBuf, AssetError> {
-        let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
-        let bases = match name.strip_prefix('/') {
-            Some(_) => vec![self.access.root().to_owned()],
-            None => vec![folder.to_owned(), folder.join("assets"), folder.join(".."), folder.join("../assets")],
-        };
-        let name = name.trim_start_matches('/');
-        let mut refused = None;
-        for base in bases {
-            match self.access.resolve(&base, name) {
-                Ok(path) if path.is_file() => return Ok(path),
-                Ok(_) => {}
-                Err(AccessError::Outside(path)) => refused = Some(path),
-                Err(_) => {}
-            }
-        }
-        Err(match refused {
-            Some(path) => AssetError::NotReadable(path, "the path leaves the allowed folders".into()),
-            None => AssetError::NotFound(name.to_owned()),
-        })
-    }
-
-    fn parse(&self, path: &Path, name: &str) -> Result<Asset, AssetError> {
-        let unreadable = |e: std::io::Error| AssetError::NotReadable(name.to_owned(), e.to_string());
-        if std::fs::metadata(path).map_err(unreadable)?.len() > MOST_BYTES {
-            return Err(AssetError::TooLarge(name.to_owned(), MOST_BYTES));
-        }
-        let bytes = std::fs::read(path).map_err(unreadable)?;
-        let folder = path.parent().unwrap_or(Path::new("."));
-        let extension = path.extension().and_then(|e| e.to_str()).unwrap_or("").to_ascii_lowercase();
-        let form = match extension.as_str() {
-            "obj" => {
-                let library = |file: &str| self.access.read(folder, file, MOST_BYTES).ok().map(|(_, bytes)| bytes);
-                obj::read(name, &bytes, folder, &library)?
-            }
-            "gltf" | "glb" => gltf_file::read(name, &bytes, folder, &self.access)?,
-            _ => return Err(AssetError::UnknownFormat(name.to_owned())),
-        };
-        Ok(Asset::new(form))
-    }
-}
-
-impl FileAssets {
-    /// Every geometry file that was read, sorted.
-    pub fn files(&self) -> Vec<PathBuf> {
-        self.read.lock().unwrap_or_else(PoisonError::into_inner).keys().cloned().collect()
-    }
-}
-
 impl Asset {
     pub fn new(form: Form) -> Self {
-        let (low, high) = form.mesh.bounds().unwrap_or_default();
-        Asset { form, low, size: high - low }
+        Asset::from(Contents { form, ..Contents::default() })
+    }
+
+    /// Names of the materials, in the order of their first faces.
+    pub fn materials(&self) -> Vec<Arc<str>> {
+        let mut seen = std::collections::BTreeSet::new();
+        let own = self.form.face_materials.iter().copied().filter(|&m| m > 0 && seen.insert(m));
+        let used: Vec<u16> = own.collect();
+        used.iter().filter_map(|&m| self.form.materials.get(usize::from(m) - 1)?.name.clone()).collect()
     }
 }
 
-impl Assets for FileAssets {
-    fn locate(&self, folder: &Path, name: &str) -> Option<Arc<str>> {
-        self.resolve(folder, name).ok().map(|path| path.to_string_lossy().into())
-    }
-
-    fn load(&self, folder: &Path, name: &str) -> Result<Arc<Asset>, AssetError> {
-        let path = self.resolve(folder, name)?;
-        // A thread that panicked while it held the lock left whole entries behind.
-        let mut read = self.read.lock().unwrap_or_else(PoisonError::into_inner);
-        read.entry(path.clone()).or_insert_with(|| self.parse(&path, name).map(Arc::new)).clone()
+impl From<Contents> for Asset {
+    fn from(contents: Contents) -> Self {
+        let Contents { form, groups, face_groups, metadata, notes, .. } = contents.finished();
+        let (low, high) = form.mesh.bounds().unwrap_or_default();
+        Asset { form, low, size: high - low, groups, face_groups, metadata, notes }
     }
 }
