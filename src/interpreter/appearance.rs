@@ -1,6 +1,8 @@
 //! The two layers of material (reference 3.9). In: `color`, `texture`, `set(material.*)` and asset materials.
 //! Out: an [`Appearance`], which holds only what was set, and the [`Material`] it comes to.
 
+mod pairs;
+
 use std::sync::Arc;
 
 use super::material::Material;

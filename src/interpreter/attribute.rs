@@ -1,5 +1,6 @@
 //! Built-in attributes. In: an [`Attr`] and a shape. Out: its value read or written (reference 5).
 
+use std::path::Path;
 use std::sync::Arc;
 
 use glam::{DMat3, DVec3};
@@ -10,7 +11,7 @@ use super::placement::{Frame, euler, rotation};
 use super::seed::Seed;
 use super::shape::Shape;
 use super::value::Value;
-use crate::cga::builtins::Attr;
+use crate::cga::builtins::{Attr, MapPart, MaterialAttr};
 use crate::cga::program::Axis;
 
 fn number(axis: Axis) -> usize {
@@ -41,12 +42,25 @@ pub fn read(run: &Derivation, attr: Attr, shape: &Shape) -> Value {
         Attr::CompTotal => shape.lineage.comp_total,
         Attr::TrimHorizontal => return Value::Bool(shape.trim_horizontal),
         Attr::TrimVertical => return Value::Bool(shape.trim_vertical),
-        Attr::Material(attr) => {
-            let asset = || shape.form.materials.first().and_then(|m| m.get(attr));
-            let default = || Appearance::default_value(attr);
-            return shape.appearance.get(attr).or_else(asset).unwrap_or_else(default);
-        }
+        Attr::Material(attr) => return read_material(run, attr, shape),
     })
+}
+
+/// What the shape set, else what its geometry has, else the default (reference 3.9). Textures read as workspace paths.
+fn read_material(run: &Derivation, attr: MaterialAttr, shape: &Shape) -> Value {
+    let (own, below) = (&shape.appearance, shape.form.first_material());
+    let value = match (attr, below) {
+        // Channels may come from both layers.
+        (MaterialAttr::ColorRgb, Some(below)) => own.over(below).get(attr),
+        (_, below) => own.get(attr).or_else(|| below?.get(attr)),
+    };
+    match (attr, value.unwrap_or_else(|| Appearance::default_value(attr))) {
+        (MaterialAttr::Map(_, MapPart::Path), Value::String(path)) => {
+            let folder = run.program.files().first().map_or(Path::new(""), |file| &file.folder);
+            Value::String(run.assets.shown(folder, &path))
+        }
+        (_, value) => value,
+    }
 }
 
 /// Writes an attribute; geometry follows the scope (reference 5.1). Attributes that cannot be written stay.

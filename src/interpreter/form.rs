@@ -53,6 +53,12 @@ impl Form {
         self.face_materials.get(face).copied().unwrap_or(0)
     }
 
+    /// The material of the first face that has one of its own.
+    pub fn first_material(&self) -> Option<&Appearance> {
+        let first = self.face_materials.iter().find(|&&m| m > 0)?;
+        self.materials.get(usize::from(*first) - 1)
+    }
+
     /// A form of this one's materials over new faces; `sources` names the face each new face came from.
     pub fn derived(&self, mesh: Mesh, sources: impl Iterator<Item = Option<u32>>) -> Form {
         if self.face_materials.is_empty() && self.labels.is_none() {

@@ -13,6 +13,7 @@ mod choice;
 mod derivation;
 mod environment;
 mod expression;
+mod files;
 mod form;
 mod functions;
 pub mod host;

@@ -3,6 +3,7 @@
 mod components;
 mod edges;
 mod expressions;
+mod files;
 mod flat;
 mod frames;
 mod limits;

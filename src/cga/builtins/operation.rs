@@ -103,7 +103,7 @@ operations! {
         "{surface volume scope} F {gaussian} {center front back left right top bottom} F'"
     ]
     Set "set" Evaluated ["X X"]
-    SetMaterial "setMaterial" NotYet ["S[]"]
+    SetMaterial "setMaterial" Evaluated ["S[]"]
     SetNormals "setNormals" Evaluated ["{hard soft auto conform}"]
     SetPivot "setPivot" Evaluated ["{xyz yzx zxy yUp zUp} F"]
     SetTagsFromEdgeAttrs "setTagsFromEdgeAttrs" NotYet [""]

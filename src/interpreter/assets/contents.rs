@@ -6,24 +6,29 @@ use std::sync::Arc;
 
 use crate::geometry::Face;
 use crate::interpreter::form::Form;
+use crate::interpreter::labels::Labels;
 use crate::interpreter::tree::Scalar;
 
 #[derive(Debug, Default)]
 pub struct Contents {
     pub form: Form,
-    pub groups: Vec<Arc<str>>,
-    /// Index into `groups` plus one per face, 0 for none.
-    pub face_groups: Vec<u16>,
     pub metadata: BTreeMap<Arc<str>, Scalar>,
     /// What could not be used.
     pub notes: Vec<String>,
+    groups: Vec<Arc<str>>,
+    /// Index into `groups` plus one per face, 0 for none.
+    face_groups: Vec<u16>,
     numbers: BTreeMap<Arc<str>, u16>,
     current: u16,
 }
 
 impl Contents {
-    /// Faces from here on belong to this group, new or known.
+    /// Faces from here on belong to this group, new or known; the empty name is none.
     pub fn begin_group(&mut self, name: &str) -> Result<(), String> {
+        if name.is_empty() {
+            self.current = 0;
+            return Ok(());
+        }
         if let Some(&known) = self.numbers.get(name) {
             self.current = known;
             return Ok(());
@@ -42,18 +47,25 @@ impl Contents {
         self.face_groups.push(self.current);
     }
 
-    /// Drops the uv sets that only some faces of a group have (reference 4.11, "Mesh consistency").
-    pub fn even_uv_sets(&mut self) {
-        let mut common: BTreeMap<u16, Vec<u8>> = BTreeMap::new();
+    /// Drops the uv sets and normals that only some faces of a group have (reference 4.11, "Mesh consistency").
+    pub fn even_channels(&mut self) {
+        let mut common: BTreeMap<u16, (Vec<u8>, bool)> = BTreeMap::new();
         for (face, group) in self.form.mesh.faces.iter().zip(&self.face_groups) {
             let has = |set: &u8| face.uv(*set).is_some();
             match common.get_mut(group) {
-                Some(sets) => sets.retain(has),
-                None => drop(common.insert(*group, (0..10).filter(has).collect())),
+                Some((sets, normals)) => {
+                    sets.retain(|set| has(set));
+                    *normals &= !face.normals.is_empty();
+                }
+                None => drop(common.insert(*group, ((0..10).filter(has).collect(), !face.normals.is_empty()))),
             }
         }
         for (face, group) in self.form.mesh.faces.iter_mut().zip(&self.face_groups) {
-            face.uvs.retain(|(set, _)| common[group].contains(set));
+            let (sets, normals) = &common[group];
+            face.uvs.retain(|(set, _)| sets.contains(set));
+            if !normals {
+                face.normals = Vec::new();
+            }
         }
     }
 
@@ -68,9 +80,10 @@ impl Contents {
             }
             *group = places[usize::from(*group)];
         }
-        self.groups = order.iter().map(|&g| self.groups[usize::from(g) - 1].clone()).collect();
-        if self.groups.is_empty() {
-            self.face_groups = Vec::new();
+        if !order.is_empty() {
+            let group_names = order.iter().map(|&g| self.groups[usize::from(g) - 1].clone()).collect();
+            let face_groups = std::mem::take(&mut self.face_groups);
+            self.form.labels = Some(Box::new(Labels { face_groups, group_names, ..Labels::default() }));
         }
         if self.form.face_materials.iter().all(|&m| m == 0) {
             self.form.face_materials = Vec::new();

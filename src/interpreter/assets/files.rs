@@ -108,8 +108,9 @@ impl FileAssets {
     fn parse(&self, path: &Path, name: &str) -> Result<Asset, AssetError> {
         let bytes = self.bytes(path, name, MOST_GEOMETRY)?;
         let contents = self.with_files(path, |files| match extension(path).as_str() {
-            "obj" => obj::read(&bytes, files)
-                .map_err(|(line, message)| AssetError::Obj { name: brief(name), line, message }),
+            "obj" => {
+                obj::read(&bytes, files).map_err(|(line, message)| AssetError::Obj { name: brief(name), line, message })
+            }
             "gltf" | "glb" => gltf_file::read(&bytes, files).map_err(|e| AssetError::Gltf(brief(name), e)),
             _ => Err(AssetError::UnknownFormat(brief(name))),
         })?;

@@ -14,40 +14,40 @@ pub struct ImageInfo {
 }
 
 /// Sides of the images that are always there, pixels.
-const TILE: u32 = 128;
+pub const BUILTIN_SIDE: u32 = 128;
 
-/// Every built-in image with its sides; `scene::texture` paints them.
-pub const BUILTIN_IMAGES: &[(&str, u32)] = &[
-    ("builtin:default", 16),
-    ("builtin:uvtest.png", 256),
-    ("builtin:unknowntexture.png", 64),
-    ("builtin:white", TILE),
-    ("builtin:roof_tiles", TILE),
-    ("builtin:shingles", TILE),
-    ("builtin:sheet_metal", TILE),
-    ("builtin:gravel", TILE),
-    ("builtin:plaster", TILE),
-    ("builtin:brick", TILE),
-    ("builtin:concrete", TILE),
-    ("builtin:facade", TILE),
-    ("builtin:asphalt", TILE),
-    ("builtin:paving", TILE),
-    ("builtin:grass", TILE),
-    ("builtin:meadow", TILE),
-    ("builtin:farmland", TILE),
-    ("builtin:forest", TILE),
-    ("builtin:soil", TILE),
-    ("builtin:ground", TILE),
-    ("builtin:sand", TILE),
-    ("builtin:rock", TILE),
-    ("builtin:water", TILE),
-    ("builtin:ash", TILE),
-    ("builtin:rubble", TILE),
+/// Every image that is always there; `scene::texture` paints them.
+pub const BUILTIN_IMAGES: &[&str] = &[
+    "builtin:white",
+    "builtin:roof_tiles",
+    "builtin:shingles",
+    "builtin:sheet_metal",
+    "builtin:gravel",
+    "builtin:plaster",
+    "builtin:brick",
+    "builtin:concrete",
+    "builtin:facade",
+    "builtin:asphalt",
+    "builtin:paving",
+    "builtin:grass",
+    "builtin:meadow",
+    "builtin:farmland",
+    "builtin:forest",
+    "builtin:soil",
+    "builtin:ground",
+    "builtin:sand",
+    "builtin:rock",
+    "builtin:water",
+    "builtin:ash",
+    "builtin:rubble",
+    "builtin:default",
+    "builtin:uvtest.png",
+    "builtin:unknowntexture.png",
 ];
 
-pub fn builtin(name: &str) -> Option<ImageInfo> {
-    let (_, side) = BUILTIN_IMAGES.iter().find(|(known, _)| *known == name)?;
-    Some(ImageInfo { width: *side, height: *side, has_alpha: false })
+pub fn builtin_image(name: &str) -> Option<ImageInfo> {
+    let known = BUILTIN_IMAGES.contains(&name);
+    known.then_some(ImageInfo { width: BUILTIN_SIDE, height: BUILTIN_SIDE, has_alpha: false })
 }
 
 /// `extension` tells the format where the bytes do not.

@@ -26,7 +26,7 @@ use super::tree::Scalar;
 use super::value::Array;
 pub use contents::Contents;
 pub use files::FileAssets;
-pub use image_file::{BUILTIN_IMAGES, ImageInfo};
+pub use image_file::{BUILTIN_IMAGES, ImageInfo, builtin_image};
 
 /// A geometry file.
 #[derive(Debug)]
@@ -36,10 +36,6 @@ pub struct Asset {
     /// Least corner and size of its box.
     pub low: DVec3,
     pub size: DVec3,
-    /// Names of the groups, in the order of their first faces.
-    pub groups: Vec<Arc<str>>,
-    /// Index into `groups` plus one per face, 0 for none; empty where there are no groups.
-    pub face_groups: Vec<u16>,
     /// Single values that the file tells about itself.
     pub metadata: BTreeMap<Arc<str>, Scalar>,
     /// What of the file could not be used.
@@ -135,7 +131,13 @@ impl Assets for NoAssets {
 
 impl Asset {
     pub fn new(form: Form) -> Self {
-        Asset::from(Contents { form, ..Contents::default() })
+        let (low, high) = form.mesh.bounds().unwrap_or_default();
+        Asset { form, low, size: high - low, metadata: BTreeMap::new(), notes: Vec::new() }
+    }
+
+    /// Names of the groups, in the order of their first faces.
+    pub fn groups(&self) -> Vec<Arc<str>> {
+        self.form.labels.as_ref().map_or_else(Vec::new, |labels| labels.group_names.to_vec())
     }
 
     /// Names of the materials, in the order of their first faces.
@@ -149,8 +151,7 @@ impl Asset {
 
 impl From<Contents> for Asset {
     fn from(contents: Contents) -> Self {
-        let Contents { form, groups, face_groups, metadata, notes, .. } = contents.finished();
-        let (low, high) = form.mesh.bounds().unwrap_or_default();
-        Asset { form, low, size: high - low, groups, face_groups, metadata, notes }
+        let Contents { form, metadata, notes, .. } = contents.finished();
+        Asset { metadata, notes, ..Asset::new(form) }
     }
 }

@@ -1,7 +1,7 @@
 //! Wavefront OBJ. In: the bytes of a file and a way to its material libraries. Out: faces with texture coordinates,
-//! materials and groups, or the line that is wrong.
+//! normals, materials and groups, or the line that is wrong.
 //!
-//! Read: `v`, `vt`, `f` (also negative indices), `g`, `o`, `usemtl`, `mtllib`. All other statements are skipped.
+//! Read: `v`, `vt`, `vn`, `f` (also negative indices), `g` (the first name), `o`, `usemtl`, `mtllib`. All other statements are skipped.
 
 use std::collections::BTreeMap;
 
@@ -9,6 +9,7 @@ use glam::{DVec2, DVec3};
 
 use super::{Contents, Files, mtl};
 use crate::geometry::Face;
+use crate::geometry::mesh::{CornerUvs, Loop, UvSets};
 use crate::interpreter::appearance::Appearance;
 
 /// A line that is wrong, counted from 1, and why.
@@ -18,6 +19,7 @@ pub type Wrong = (usize, String);
 struct Reader<'a> {
     files: &'a Files<'a>,
     texture: Vec<DVec2>,
+    normals: Vec<DVec3>,
     out: Contents,
     materials: Vec<Appearance>,
     /// Places in `materials` by name.
@@ -30,6 +32,7 @@ pub fn read(bytes: &[u8], files: &Files) -> Result<Contents, Wrong> {
     let mut reader = Reader {
         files,
         texture: Vec::new(),
+        normals: Vec::new(),
         out: Contents::default(),
         materials: Vec::new(),
         named: BTreeMap::new(),
@@ -54,8 +57,10 @@ impl Reader<'_> {
         match keyword {
             "v" => self.out.form.mesh.positions.push(DVec3::from_array(numbers::<3>(rest, 3)?)),
             "vt" => self.texture.push(DVec2::from_array(numbers::<2>(rest, 1)?)),
+            "vn" => self.normals.push(DVec3::from_array(numbers::<3>(rest, 3)?).normalize_or_zero()),
             "f" => self.face(rest)?,
-            "g" | "o" => self.out.begin_group(rest)?,
+            "g" => self.out.begin_group(rest.split_whitespace().next().unwrap_or(""))?,
+            "o" => self.out.begin_group(rest)?,
             "mtllib" => self.library(rest)?,
             "usemtl" => self.use_material(rest)?,
             _ => {}
@@ -64,24 +69,23 @@ impl Reader<'_> {
     }
 
     fn face(&mut self, rest: &str) -> Result<(), String> {
-        let mut outer = Vec::new();
-        let mut uv = Vec::new();
+        let (mut outer, mut uv, mut normals) = (Loop::new(), CornerUvs::new(), Vec::new());
         for corner in rest.split_whitespace() {
             let mut parts = corner.split('/');
             outer.push(index(parts.next().unwrap_or(""), self.out.form.mesh.positions.len())? as u32);
-            if let Some(texture) = parts.next().filter(|t| !t.is_empty()) {
-                uv.push(self.texture[index(texture, self.texture.len())?]);
+            if let Some(place) = parts.next().filter(|t| !t.is_empty()) {
+                uv.push(self.texture[index(place, self.texture.len())?]);
+            }
+            if let Some(place) = parts.next().filter(|n| !n.is_empty()) {
+                normals.push(self.normals[index(place, self.normals.len())?]);
             }
         }
         if outer.len() < 3 {
             return Err("a face needs three corners".into());
         }
-        let uvs = if uv.len() == outer.len() { vec![(0, uv.into_iter().collect())] } else { Vec::new() };
-        let face = Face {
-            outer: outer.into_iter().collect(),
-            uvs: uvs.into_iter().collect(),
-            ..Face::default()
-        };
+        let uvs = if uv.len() == outer.len() { [(0, uv)].into() } else { UvSets::new() };
+        let whole = normals.len() == outer.len() && normals.iter().all(|n| *n != DVec3::ZERO);
+        let face = Face { uvs, normals: if whole { normals } else { Vec::new() }, ..Face::new(outer) };
         self.out.face(face, self.current);
         Ok(())
     }
@@ -128,7 +132,7 @@ impl Reader<'_> {
 
     fn finish(mut self) -> Contents {
         self.out.form.materials = self.materials.into();
-        self.out.even_uv_sets();
+        self.out.even_channels();
         self.out
     }
 }

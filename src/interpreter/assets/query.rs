@@ -28,12 +28,8 @@ enum Subject {
     Project,
 }
 
-const PROPERTIES: &[(&str, Subject)] = &[
-    ("Name=", Subject::Name),
-    ("Ext=", Subject::Extension),
-    ("Project=", Subject::Project),
-    ("Path=", Subject::Path),
-];
+const PROPERTIES: &[(&str, Subject)] =
+    &[("Name=", Subject::Name), ("Ext=", Subject::Extension), ("Project=", Subject::Project), ("Path=", Subject::Path)];
 
 impl Query {
     /// `project` is the workspace path of the project, such as `/town`.
@@ -175,6 +171,10 @@ mod tests {
         assert!(Query::new("$(a{1000}){1000}", "/town").is_err_and(|e| e.contains("too large")));
         assert!(Query::new(&"*".repeat(1001), "/town").is_err());
         // Linear in the path whatever the query: no blow-up.
-        assert!(!Query::new(&"*a".repeat(400), "/town").expect("short enough").matches(&"a".repeat(3000).replace("aaa", "b")));
+        assert!(
+            !Query::new(&"*a".repeat(400), "/town")
+                .expect("short enough")
+                .matches(&"a".repeat(3000).replace("aaa", "b"))
+        );
     }
 }

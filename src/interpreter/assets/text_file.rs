@@ -13,7 +13,8 @@ pub fn read(bytes: &[u8]) -> String {
 
 /// UTF-16 of a western text: every second byte is 0. Gives it the mark that it lacks.
 fn utf16_without_mark(bytes: &[u8]) -> Option<Vec<u8>> {
-    if bytes.len() < 4 || !bytes.len().is_multiple_of(2) {
+    let has_mark = matches!(bytes, [0xff, 0xfe, ..] | [0xfe, 0xff, ..]);
+    if has_mark || bytes.len() < 4 || !bytes.len().is_multiple_of(2) {
         return None;
     }
     let zeros = |start: usize| bytes.iter().skip(start).step_by(2).filter(|&&b| b == 0).count();

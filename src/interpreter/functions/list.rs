@@ -4,7 +4,7 @@ use super::super::value::Value;
 use super::Input;
 use crate::cga::builtins::Function as F;
 
-fn items(list: &str) -> Vec<&str> {
+pub fn items(list: &str) -> Vec<&str> {
     let mut items: Vec<&str> = list.split(';').collect();
     if items.last().is_some_and(|last| last.is_empty()) {
         items.pop();
@@ -12,7 +12,7 @@ fn items(list: &str) -> Vec<&str> {
     items
 }
 
-fn joined<'a>(items: impl IntoIterator<Item = &'a str>) -> Value {
+pub fn joined<'a>(items: impl IntoIterator<Item = &'a str>) -> Value {
     let mut out = String::new();
     for item in items {
         out.push_str(item);

@@ -6,6 +6,8 @@ mod array;
 mod color;
 mod convert;
 mod edge;
+mod file_order;
+mod files;
 mod geometry;
 mod list;
 mod math;
@@ -93,11 +95,10 @@ pub fn call(
         F::GetGeoCoord => place::geo_coordinate(run, &input, env.shape),
         F::GetTreeKey => place::tree_key(run),
         F::Convert => convert::convert(run, &input, env.shape),
-        F::FileExists => {
-            let found = run.assets.locate(run.program.folder(span.source), &input.text(0));
-            Value::Bool(input.text(0).starts_with("builtin:") || found.is_some())
-        }
         other => {
+            if let Some(value) = files::call(run, other, &input, site, env)? {
+                return Ok(value);
+            }
             let value = math::call(other, &input)
                 .or_else(|| geometry::call(run, other, &input, env.shape))
                 .or_else(|| tags::call(other, &input, env))

@@ -43,37 +43,6 @@ impl Labels {
     }
 }
 
-/// Groups of faces while a file is read.
-#[derive(Debug, Default)]
-pub struct GroupList {
-    names: Vec<Arc<str>>,
-    /// Place in `names` plus one; 0 before the first.
-    current: u16,
-    faces: Vec<u16>,
-}
-
-impl GroupList {
-    /// The faces that follow belong to this group; the empty name is none.
-    pub fn begin(&mut self, name: &str) {
-        let known = self.names.iter().position(|n| **n == *name).unwrap_or(self.names.len());
-        self.current = if name.is_empty() { 0 } else { u16::try_from(known + 1).unwrap_or(0) };
-        if self.current > 0 && known == self.names.len() {
-            self.names.push(name.into());
-        }
-    }
-
-    pub fn add_face(&mut self) {
-        self.faces.push(self.current);
-    }
-
-    /// `None` if no face has a group.
-    pub fn into_labels(self) -> Option<Box<Labels>> {
-        let any = self.faces.iter().any(|&group| group > 0);
-        let (face_groups, group_names) = (self.faces, self.names.into());
-        any.then(|| Box::new(Labels { face_groups, group_names, tags: Tags::default() }))
-    }
-}
-
 impl Form {
     /// The tags, if there are any.
     pub fn tags(&self) -> Option<&Tags> {

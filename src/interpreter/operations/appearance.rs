@@ -3,12 +3,16 @@
 use std::sync::Arc;
 
 use super::super::appearance::parse_color;
+use super::super::assets::builtin_image;
 use super::super::derivation::Derivation;
+use super::super::files;
 use super::super::shape::Shape;
 use super::super::value::Value;
 use super::args::Args;
-use crate::cga::builtins::Word;
+use crate::cga::builtins::{MapLayer, MapPart, MaterialAttr, Word};
 use crate::source::Span;
+
+const OPACITYMAP: MaterialAttr = MaterialAttr::Map(MapLayer::Opacity, MapPart::Path);
 
 /// `color("#rrggbb[oo]")`, `color(r, g, b [, o])`. Text that is no colour warns and changes nothing.
 pub fn color(run: &mut Derivation, args: &Args, shape: &mut Shape) {
@@ -28,25 +32,33 @@ pub fn color(run: &mut Derivation, args: &Args, shape: &mut Shape) {
     appearance.opacity = opacity.or(appearance.opacity);
 }
 
-/// `texture(path)`: the colour map; "" for none.
+/// `texture(path)`: the colour map, and the opacity map if the image has an alpha channel; "" for none.
 pub fn texture(run: &mut Derivation, args: &Args, shape: &mut Shape) {
     let path = args.value(0).map_or_else(|| "".into(), Value::to_text);
     let path = texture_path(run, &path, args.span);
-    Arc::make_mut(&mut shape.appearance).colormap = Some(path);
+    // A host without files, and an image that cannot be read, tell nothing of channels.
+    let has_alpha = !path.is_empty() && files::image(run, &path, args.span).is_ok_and(|info| info.has_alpha);
+    let appearance = Arc::make_mut(&mut shape.appearance);
+    let set_before = appearance.get(OPACITYMAP).is_some();
+    if has_alpha {
+        appearance.set(OPACITYMAP, Value::String(path.clone()));
+    } else if set_before || shape.form.first_material().is_some() {
+        appearance.set(OPACITYMAP, Value::text(""));
+    }
+    appearance.colormap = Some(path);
 }
 
 /// A texture's path as the host finds it; a missing file becomes the stand-in, with a warning (reference 2.11).
 pub fn texture_path(run: &mut Derivation, path: &Arc<str>, span: Span) -> Arc<str> {
-    if path.is_empty() || path.starts_with("builtin:") {
-        return path.clone();
-    }
-    match run.assets.locate(run.program.folder(span.source), path) {
-        Some(found) => found,
-        None => {
-            run.warn("cga::missing-texture", span, || format!("texture `{path}` was not found"));
-            "builtin:unknowntexture.png".into()
-        }
-    }
+    let found = match path.starts_with("builtin:") {
+        true => builtin_image(path).map(|_| path.clone()),
+        false if path.is_empty() => return path.clone(),
+        false => run.assets.locate(files::folder(run, span), path),
+    };
+    found.unwrap_or_else(|| {
+        run.warn("cga::missing-texture", span, || format!("texture `{path:.200}` was not found"));
+        "builtin:unknowntexture.png".into()
+    })
 }
 
 /// `resetMaterial([shape | geometry | all])`.

@@ -7,6 +7,7 @@ use glam::{DMat3, DVec3};
 
 use super::super::assets::Asset;
 use super::super::derivation::Derivation;
+use super::super::files;
 use super::super::form::Form;
 use super::super::limits::Outcome;
 use super::super::shape::Shape;
@@ -18,15 +19,7 @@ use crate::cga::builtins::Word;
 
 pub fn apply(run: &mut Derivation, args: &Args, shape: &mut Shape) -> Outcome<()> {
     let path: Arc<str> = args.value(0).map_or_else(|| "".into(), Value::to_text);
-    let loaded = match &*path {
-        "builtin:cube" => Ok(Arc::new(Asset::new(unit_cube()))),
-        "builtin:cube:notex" => {
-            let mut cube = unit_cube();
-            cube.mesh.faces.iter_mut().for_each(|f| f.uvs.clear());
-            Ok(Arc::new(Asset::new(cube)))
-        }
-        path => run.assets.load(run.program.folder(args.span.source), path),
-    };
+    let loaded = files::geometry(run, &path, args.span);
     let asset = loaded.unwrap_or_else(|error| {
         run.warn("cga::missing-asset", args.span, || format!("{error}, a box stands in"));
         Arc::new(Asset::new(unit_cube()))

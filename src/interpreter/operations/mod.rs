@@ -34,6 +34,7 @@ mod scatter;
 mod scatter_gauss;
 mod scatter_solid;
 mod set;
+mod set_material;
 mod set_pivot;
 mod setback_tags;
 mod split;
@@ -49,6 +50,7 @@ mod trim;
 mod uv;
 mod uv_tiling;
 
+pub use primitive::unit_cube;
 pub use set::set;
 pub use tag::levels as tag_levels;
 
@@ -113,6 +115,7 @@ pub fn apply(
         O::DeleteHoles => delete_holes::apply(shape),
         O::Color => appearance::color(run, &args, shape),
         O::Texture => appearance::texture(run, &args, shape),
+        O::SetMaterial => set_material::apply(run, &args, shape),
         O::ResetMaterial => appearance::reset(&args, shape),
         O::SetupProjection => uv::setup_projection(run, &args, shape),
         O::ProjectUv => uv::project(run, &args, shape),

@@ -108,5 +108,7 @@ impl Read {
 /// IEC 61966-2-1.
 fn srgb_encoded(linear: f64) -> f64 {
     let linear = linear.clamp(0.0, 1.0);
-    if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * libm::pow(linear, 1.0 / 2.4) - 0.055 }
+    let encoded = if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * libm::pow(linear, 1.0 / 2.4) - 0.055 };
+    // Rounding would leave white a little grey.
+    if linear == 1.0 { 1.0 } else { encoded }
 }

@@ -8,12 +8,13 @@ mod material;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use glam::{DMat4, DVec2, DVec3};
+use glam::{DMat3, DMat4, DVec2, DVec3};
 use gltf::mesh::Mode;
 use percent_encoding::percent_decode_str;
 
 use super::{Contents, Files};
 use crate::geometry::Face;
+use crate::geometry::transform::normals_under;
 use crate::interpreter::tree::Scalar;
 use accessor::{Buffers, MOST_ELEMENTS};
 
@@ -56,10 +57,11 @@ pub fn embedded_image(bytes: &[u8], number: usize, files: &Files) -> Result<Vec<
 }
 
 fn open(bytes: &[u8], files: &Files) -> Result<(gltf::Document, Buffers), String> {
-    let gltf = gltf::Gltf::from_slice(bytes).map_err(|e| e.to_string())?;
+    let gltf = gltf::Gltf::from_slice_without_validation(bytes).map_err(|e| e.to_string())?;
     let mut blob = gltf.blob;
+    let document = checked(gltf.document.into_json())?;
     let mut buffers = Vec::new();
-    for buffer in gltf.document.buffers() {
+    for buffer in document.buffers() {
         let bytes = match buffer.source() {
             gltf::buffer::Source::Bin => blob.take().ok_or("the binary chunk is missing")?,
             gltf::buffer::Source::Uri(uri) if uri.starts_with("data:") => data_uri(uri)?,
@@ -70,7 +72,22 @@ fn open(bytes: &[u8], files: &Files) -> Result<(gltf::Document, Buffers), String
         }
         buffers.push(bytes);
     }
-    Ok((gltf.document, Buffers(buffers)))
+    Ok((document, Buffers(buffers)))
+}
+
+/// The document if every index in it leads somewhere. The validation of the `gltf` crate trusts the accessors of
+/// positions and asks for bounds that many files do not have, so these are looked after first.
+fn checked(mut json: gltf::json::Root) -> Result<gltf::Document, String> {
+    let primitives = json.meshes.iter().flat_map(|mesh| &mesh.primitives);
+    if primitives.flat_map(|p| p.attributes.values()).any(|accessor| accessor.value() >= json.accessors.len()) {
+        return Err("a primitive names an accessor that is not there".into());
+    }
+    for accessor in &mut json.accessors {
+        for bound in [&mut accessor.min, &mut accessor.max] {
+            bound.get_or_insert_with(|| serde_json::json!([0.0, 0.0, 0.0]));
+        }
+    }
+    gltf::Document::from_json(json).map_err(|e| e.to_string())
 }
 
 /// The bytes in a `data:` URI.
@@ -110,7 +127,8 @@ impl Reader<'_> {
         }
         let world = above * glam::Mat4::from_cols_array_2d(&node.transform().matrix()).as_dmat4();
         if let Some(mesh) = node.mesh() {
-            let name = node.name().or_else(|| mesh.name()).map_or_else(|| format!("node{}", node.index()), str::to_owned);
+            let name =
+                node.name().or_else(|| mesh.name()).map_or_else(|| format!("node{}", node.index()), str::to_owned);
             self.out.begin_group(&name)?;
             mesh.primitives().try_for_each(|primitive| self.primitive(&primitive, &world))?;
         }
@@ -141,6 +159,7 @@ impl Reader<'_> {
             return Err("an index points past the vertices".into());
         }
         let uvs = self.uv_sets(primitive, positions.len())?;
+        let normals = self.normals(primitive, positions.len(), world)?;
         let first = self.out.form.mesh.positions.len() as u32;
         self.out.form.mesh.positions.extend(positions);
         // A mirrored node turns its triangles round.
@@ -150,13 +169,24 @@ impl Reader<'_> {
             let corners = if mirrored { [a, c, b] } else { [a, b, c] };
             let of = |uv: &Vec<DVec2>| corners.iter().map(|&i| uv[i as usize]).collect();
             let face = Face {
-                outer: corners.iter().map(|i| first + i).collect(),
                 uvs: uvs.iter().map(|(set, uv)| (*set, of(uv))).collect(),
-                ..Face::default()
+                normals: normals.iter().flat_map(|n| corners.map(|i| n[i as usize])).collect(),
+                ..Face::new(corners.map(|i| first + i).as_slice())
             };
             self.out.face(face, material);
         }
         Ok(())
+    }
+
+    /// Normals in the scene, if there are any and all have a direction.
+    fn normals(&self, primitive: &gltf::Primitive, count: usize, world: &DMat4) -> Result<Option<Vec<DVec3>>, String> {
+        let Some(accessor) = primitive.get(&gltf::Semantic::Normals).filter(|a| a.count() == count) else {
+            return Ok(None);
+        };
+        let turn = normals_under(DMat3::from_mat4(*world));
+        let read = self.buffers.vectors::<3>(&accessor)?;
+        let turned: Vec<_> = read.into_iter().map(|n| (turn * DVec3::from_array(n)).try_normalize()).collect();
+        Ok(turned.into_iter().collect())
     }
 
     fn count(&mut self, more: usize) -> Result<(), String> {
