@@ -30,6 +30,10 @@ pub const DUPLICATE_PARAMETER: &str = "cga::duplicate-parameter";
 pub const MISPLACED_DECLARATION: &str = "cga::misplaced-declaration";
 /// The chosen style, or the base of a style, does not exist.
 pub const UNKNOWN_STYLE: &str = "cga::unknown-style";
+/// A style makes something of another kind or type out of a definition of its base.
+pub const STYLE_MISMATCH: &str = "cga::style-mismatch";
+/// An annotation stands in front of something it has no meaning for.
+pub const MISPLACED_ANNOTATION: &str = "cga::misplaced-annotation";
 /// An annotation the language does not know.
 pub const UNKNOWN_ANNOTATION: &str = "cga::unknown-annotation";
 /// An annotation has arguments it cannot take.

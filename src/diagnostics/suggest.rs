@@ -5,8 +5,15 @@
 pub fn suggest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let wanted: Vec<char> = name.to_lowercase().chars().collect();
     let limit = (wanted.len() / 3).max(1);
+    let letters = letters(name);
     let mut best: Option<(usize, &str)> = None;
     for candidate in candidates {
+        // Every letter that only one of them has costs a change: most names are refused without looking closer.
+        let others = self::letters(candidate);
+        let (ours, theirs) = (letters & !others, others & !letters);
+        if (ours.count_ones().max(theirs.count_ones()) as usize) > limit {
+            continue;
+        }
         let other: Vec<char> = candidate.to_lowercase().chars().collect();
         if other.len().abs_diff(wanted.len()) > limit || candidate == name {
             continue;
@@ -17,6 +24,11 @@ pub fn suggest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
         }
     }
     best.map(|(_, c)| c)
+}
+
+/// The ASCII letters, digits and signs of a name as a set of bits; case is ignored, other characters count as one.
+fn letters(name: &str) -> u64 {
+    name.bytes().map(|b| if b.is_ascii() { 1 << (b.to_ascii_lowercase() & 63) } else { 1 << 63 }).fold(0, |a, b| a | b)
 }
 
 /// Optimal string alignment: insertions, deletions, substitutions and swaps of neighbours.

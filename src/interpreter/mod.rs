@@ -11,6 +11,7 @@ pub mod assets;
 mod attribute;
 mod choice;
 mod derivation;
+mod dynamic_import;
 mod environment;
 mod expression;
 mod files;

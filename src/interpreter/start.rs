@@ -170,7 +170,7 @@ fn street_widths<'p>(run: &mut Derivation<'p>, attribute: &'p Attribute, shape: 
     Ok(Value::floats(widths))
 }
 
-fn default_value<'p>(run: &mut Derivation<'p>, attribute: &'p Attribute, shape: &Shape) -> Outcome<Value> {
+pub fn default_value<'p>(run: &mut Derivation<'p>, attribute: &'p Attribute, shape: &Shape) -> Outcome<Value> {
     let mut slots = Vec::with_capacity(attribute.locals.len());
     for (i, local) in attribute.locals.iter().enumerate() {
         let value = run.eval(local, &Env::new(shape, &slots, i as u64 + 1))?;
@@ -180,7 +180,7 @@ fn default_value<'p>(run: &mut Derivation<'p>, attribute: &'p Attribute, shape: 
 }
 
 /// The host's value, converted to the attribute's type and kept to its range.
-fn host_value(run: &mut Derivation, attribute: &Attribute) -> Option<Value> {
+pub fn host_value(run: &mut Derivation, attribute: &Attribute) -> Option<Value> {
     if attribute.is_const || attribute.is_map {
         return None;
     }

@@ -8,6 +8,7 @@ use std::sync::Arc;
 
 use super::choice;
 use super::derivation::{Derivation, Step, Symbol, Task};
+use super::dynamic_import;
 use super::environment::Env;
 use super::limits::Outcome;
 use super::operations::{self, Pieces};
@@ -113,6 +114,14 @@ impl<'p> Derivation<'p> {
             Item::Call { rule, args, span } => {
                 let args = self.eval_values(args, place, shape, body)?;
                 self.add_child(Symbol::Rule(*rule), args, place, shape, body, *span)
+            }
+            Item::Instantiate { import, overrides, rule, args, span } => {
+                let args = self.eval_values(args, place, shape, body)?;
+                let env = Env::new(shape, &body.slots, place);
+                let given: Outcome<Vec<_>> = overrides.iter().map(|(id, e)| Ok((*id, self.eval(e, &env)?))).collect();
+                let mut anew = shape.clone();
+                dynamic_import::instantiate(self, *import, given?, &mut anew)?;
+                self.add_child(Symbol::Rule(*rule), args, place, &anew, body, *span)
             }
             Item::Leaf { symbol, args, span } => {
                 self.eval_values(args, place, shape, body)?;

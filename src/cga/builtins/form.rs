@@ -43,7 +43,7 @@ forms! {
     UvSelector "uv selectors" NotYet
     RoofEdgeSelector "the selectors eave, hip, valley and ridge" Evaluated
     VertexNormalExtrusion "extrude(vertex.normal, ...)" Evaluated
-    DynamicImport "a dynamic import call" NotYet
+    DynamicImport "a dynamic import call" Evaluated
     StreetWidth "the map attribute streetWidth" Evaluated
     ComputedSet "set(sel(...), ...)" Evaluated
 }

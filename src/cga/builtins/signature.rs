@@ -1,6 +1,8 @@
 //! In: the text of an overload, such as `"{yUp zUp} F F? -> S"`. Out: its parameters and result.
 
-use super::Word;
+use std::sync::LazyLock;
+
+use super::{Function, Operation, Word};
 use crate::cga::program::Type;
 
 /// What one parameter takes.
@@ -79,6 +81,30 @@ impl Signature {
     }
 }
 
+/// Every row's signatures, read once.
+static OPERATIONS: LazyLock<Vec<Vec<Signature>>> =
+    LazyLock::new(|| Operation::ALL.iter().map(|o| parse_all(o.signatures())).collect());
+static FUNCTIONS: LazyLock<Vec<Vec<Signature>>> =
+    LazyLock::new(|| Function::ALL.iter().map(|f| parse_all(f.signatures())).collect());
+
+fn parse_all(texts: &[&str]) -> Vec<Signature> {
+    texts.iter().map(|text| Signature::parse(text)).collect()
+}
+
+impl Operation {
+    /// [`Operation::signatures`], read.
+    pub fn overloads(self) -> &'static [Signature] {
+        &OPERATIONS[self as usize]
+    }
+}
+
+impl Function {
+    /// [`Function::signatures`], read.
+    pub fn overloads(self) -> &'static [Signature] {
+        &FUNCTIONS[self as usize]
+    }
+}
+
 impl ParameterKind {
     fn parse(text: &str) -> ParameterKind {
         let (text, optional) = match text.strip_suffix('?') {
@@ -132,20 +158,18 @@ fn value_type(name: &str) -> Option<Type> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Signature, Type, Word};
-    use crate::cga::builtins::{Attr, Function, Operation};
+    use super::{Function, Operation, Signature, Type, Word};
+    use crate::cga::builtins::Attr;
 
     #[test]
     fn every_signature_of_the_tables_parses() {
         for operation in Operation::ALL {
-            for text in operation.signatures() {
-                assert_eq!(Signature::parse(text).result, None, "{}", operation.name());
-            }
+            assert_eq!(operation.overloads().len(), operation.signatures().len());
+            assert!(operation.overloads().iter().all(|s| s.result.is_none()), "{}", operation.name());
         }
         for function in Function::ALL {
-            for text in function.signatures() {
-                assert!(Signature::parse(text).result.is_some(), "{}: {text}", function.name());
-            }
+            assert_eq!(function.overloads().len(), function.signatures().len());
+            assert!(function.overloads().iter().all(|s| s.result.is_some()), "{}", function.name());
         }
     }
 

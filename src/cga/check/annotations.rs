@@ -3,68 +3,64 @@
 
 use std::sync::Arc;
 
-use crate::cga::ast::{Annotation, AnnotationArg, AnnotationValue};
+use super::annotation_rules;
+use crate::cga::ast::{Annotation, AnnotationArg, AnnotationValue, Declaration, DeclarationKind};
 use crate::cga::codes;
 use crate::cga::program::{Annotations, Choices, Constant, Range};
-use crate::diagnostics::{Diagnostic, Diagnostics, suggest};
-
-/// Annotations of reference 1.14.
-const KNOWN: &[&str] = &[
-    "StartRule",
-    "Hidden",
-    "Group",
-    "Order",
-    "Range",
-    "Enum",
-    "Color",
-    "File",
-    "Directory",
-    "MaterialFile",
-    "Angle",
-    "Distance",
-    "Percent",
-    "Description",
-    "DisplayName",
-    "RuleFileDescription",
-    "Handle",
-    "InMesh",
-    "InPolygon",
-    "InLine",
-    "InPoint",
-    "InPointCloud",
-    "Out",
-];
+use crate::diagnostics::{Diagnostic, Diagnostics};
+use crate::source::Span;
 
 /// The group that stays open from one declaration to the next.
 #[derive(Default)]
 pub struct Grouping {
     groups: Vec<Arc<str>>,
+    /// The first `@Range` in the old form without names, and how many there are.
+    old_ranges: Option<(Span, usize)>,
 }
 
 impl Grouping {
     /// Reads the annotations of one declaration.
-    pub fn read(&mut self, annotations: &[Annotation], diagnostics: &mut Diagnostics) -> Annotations {
+    pub fn read(&mut self, declaration: &Declaration, diagnostics: &mut Diagnostics) -> Annotations {
+        self.annotations(&declaration.annotations, Some(&declaration.kind), diagnostics)
+    }
+
+    /// Reads those after the last declaration.
+    pub fn trailing(&mut self, annotations: &[Annotation], diagnostics: &mut Diagnostics) {
+        self.annotations(annotations, None, diagnostics);
+        if let Some((span, count)) = self.old_ranges {
+            let uses = if count == 1 { String::new() } else { format!(" ({count} times in this file)") };
+            let message = format!("`@Range` without names is an old form{uses}");
+            let help = "write `@Range(min=0, max=1)` for a range, `@Enum(\"a\", \"b\")` for a list of values";
+            diagnostics.push(Diagnostic::warning(codes::DEPRECATED, span, message).help(help));
+        }
+    }
+
+    fn annotations(
+        &mut self,
+        annotations: &[Annotation],
+        on: Option<&DeclarationKind>,
+        diagnostics: &mut Diagnostics,
+    ) -> Annotations {
         let mut out = Annotations::default();
         for annotation in annotations {
-            let name = &*annotation.name.text;
+            annotation_rules::check(annotation, on, diagnostics);
             let args = &annotation.args[..];
-            match name {
+            match &*annotation.name.text {
                 "Group" => self.groups = strings(args).collect(),
                 "Hidden" => out.hidden = true,
                 "Order" => out.order = numbers(args).next(),
                 "Description" => out.description = strings(args).next(),
                 "DisplayName" => out.display_name = strings(args).next(),
-                "Range" => range(annotation, &mut out, diagnostics),
+                "Range" => {
+                    if args.iter().any(|a| a.key.is_none()) {
+                        self.old_ranges.get_or_insert((annotation.name.span, 0)).1 += 1;
+                    }
+                    range(annotation, &mut out, diagnostics);
+                }
                 "Enum" => out.choices = choices(args, true),
                 "Percent" if out.range.is_none() => out.range = Some(open_range(0.0, 1.0)),
                 "Angle" if out.range.is_none() => out.range = Some(open_range(0.0, 360.0)),
-                known if KNOWN.contains(&known) => {}
-                unknown => {
-                    let message = format!("there is no annotation `@{unknown}`; it is ignored");
-                    let warning = Diagnostic::warning(codes::UNKNOWN_ANNOTATION, annotation.name.span, message);
-                    let help = suggest(unknown, KNOWN.iter().copied()).map(|near| format!("did you mean `@{near}`?"));
-                    diagnostics.push(Diagnostic { help, ..warning });
-                }
+                _ => {}
             }
         }
         out.groups = self.groups.clone();

@@ -3,6 +3,7 @@
 
 use super::callable::{bare_name, computed_word, found};
 use super::lower::Body;
+use super::overloads::forms;
 use super::types::type_names;
 use crate::cga::ast::Argument;
 use crate::cga::builtins::{Function, ParameterKind, Signature, Word};
@@ -35,7 +36,7 @@ impl Body<'_, '_> {
         if function.observes_tags() {
             self.tables.observes_tags.set(true);
         }
-        let (args, result) = self.overload(function.name(), function.signatures(), args, span);
+        let (args, result) = self.overload(function.name(), function.overloads(), args, span);
         let site = function.draws().then(|| self.draw());
         Expr { kind: ExprKind::Builtin { function, args, site }, value: result, span }
     }
@@ -44,17 +45,16 @@ impl Body<'_, '_> {
     pub fn overload(
         &mut self,
         name: &str,
-        signatures: &[&str],
+        signatures: &[Signature],
         args: &[Argument],
         span: Span,
     ) -> (Vec<Arg>, Option<Type>) {
-        let signatures: Vec<Signature> = signatures.iter().map(|text| Signature::parse(text)).collect();
         let given: Vec<Given<'_>> = args.iter().map(|arg| self.given(arg)).collect();
         let fits = |s: &&Signature| (s.arity().0..=s.arity().1).contains(&given.len());
         let mut of_length = signatures.iter().filter(fits).peekable();
         if of_length.peek().is_none() {
             let counts: Vec<usize> = signatures.iter().flat_map(|s| s.arity().0..=s.arity().1).collect();
-            self.argument_count(name, &counts, given.len(), span);
+            self.argument_count(name, &counts, given.len(), span, || forms(name, signatures));
             return (Vec::new(), signatures.first().and_then(|s| s.result));
         }
         let mut fitting: Vec<&Signature> = Vec::new();
@@ -72,7 +72,8 @@ impl Body<'_, '_> {
             }
         }
         let Some(&chosen) = fitting.first() else {
-            self.report(misfit.expect("an overload that does not fit has a reason"), &given);
+            let misfit = misfit.expect("an overload that does not fit has a reason");
+            self.report(misfit, &given, || forms(name, signatures));
             return (Vec::new(), signatures[0].result);
         };
         let certain = fitting.iter().all(|s| s.result == chosen.result);
@@ -122,7 +123,10 @@ impl Body<'_, '_> {
         Arg::Value(prefix, value)
     }
 
-    fn report(&mut self, misfit: Misfit, given: &[Given<'_>]) {
+    fn report(&mut self, misfit: Misfit, given: &[Given<'_>], forms: impl FnOnce() -> String) {
+        if self.quiet {
+            return;
+        }
         let arg = &given[misfit.at];
         let span = arg.written.span;
         let words = &misfit.kind.words;
@@ -133,7 +137,8 @@ impl Body<'_, '_> {
                 (false, false) => format!("{} or one of {}", type_names(&misfit.kind.values), list(words)),
             };
             let found = found(arg.value.as_ref().and_then(|v| v.value));
-            return self.error(codes::TYPE_MISMATCH, span, format!("expected {wanted}, found {found}"));
+            let error = Diagnostic::error(codes::TYPE_MISMATCH, span, format!("expected {wanted}, found {found}"));
+            return self.diagnostics.push(error.help(forms()));
         };
         if words.is_empty() {
             // Resolving it as a value says what is wrong with the name.

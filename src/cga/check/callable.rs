@@ -62,7 +62,8 @@ impl Body<'_, '_> {
             let builtin = Function::from_name(&name.text).is_some();
             if !candidates.is_empty() && !builtin {
                 let counts: Vec<usize> = candidates.iter().map(|v| self.tables.value_arity(*v)).collect();
-                self.argument_count(&name.text, &counts, args.len(), span);
+                let own = || self::own_forms(&name.text, candidates.iter().map(|v| self.tables.value_parameters(*v)));
+                self.argument_count(&name.text, &counts, args.len(), span, own);
                 args.iter().for_each(|a| drop(self.expression(&a.value)));
                 return Some(Expr { kind: ExprKind::Bool(false), value: None, span });
             }
@@ -130,14 +131,25 @@ impl Body<'_, '_> {
         self.error(codes::MISPLACED_PREFIX, arg.span, format!("`{sign}` has no meaning for this argument"));
     }
 
-    pub fn argument_count(&mut self, name: &str, counts: &[usize], given: usize, span: Span) {
+    pub fn argument_count(
+        &mut self,
+        name: &str,
+        counts: &[usize],
+        given: usize,
+        span: Span,
+        forms: impl FnOnce() -> String,
+    ) {
+        if self.quiet {
+            return;
+        }
         let mut counts: Vec<usize> = counts.to_vec();
         counts.sort_unstable();
         counts.dedup();
         let listed: Vec<String> = counts.iter().map(usize::to_string).collect();
         let plural = if counts == [1] { "" } else { "s" };
         let message = format!("`{name}` takes {} argument{plural}, not {given}", listed.join(" or "));
-        self.error(codes::ARGUMENT_COUNT, span, message);
+        let error = Diagnostic::error(codes::ARGUMENT_COUNT, span, message);
+        self.diagnostics.push(error.help(forms()));
     }
 
     /// Reports a built-in that the interpreter cannot run yet.
@@ -159,6 +171,9 @@ impl Body<'_, '_> {
 
     fn unknown_value(&mut self, name: &Text, args: &[Argument]) {
         args.iter().for_each(|a| drop(self.expression(&a.value)));
+        if self.quiet {
+            return;
+        }
         let slots = self.slots.iter().map(|(n, _)| &**n);
         let own = self.tables.instances[self.scope].values.keys().map(|k| &**k);
         let builtin = Function::ALL.iter().map(|f| f.name()).chain(Attr::table().map(|row| row.name));
@@ -200,6 +215,16 @@ impl Body<'_, '_> {
         }
         Expr { kind: ExprKind::Selector(word), value: Some(Type::Bool), span }
     }
+}
+
+/// How messages list definitions of the rule files: `its forms are f(x), f(x, y)`.
+pub fn own_forms<'t>(name: &str, definitions: impl Iterator<Item = &'t [Text]>) -> String {
+    let form = |parameters: &[Text]| {
+        let names: Vec<&str> = parameters.iter().map(|p| &*p.text).collect();
+        if names.is_empty() { name.to_owned() } else { format!("{name}({})", names.join(", ")) }
+    };
+    let forms: Vec<String> = definitions.take(6).map(form).collect();
+    format!("{} {}", if forms.len() == 1 { "its form is" } else { "its forms are" }, forms.join(", "))
 }
 
 /// Whether values can be the arguments of these parameters.

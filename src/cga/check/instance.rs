@@ -3,19 +3,19 @@
 //! An *instance* is one import of one file: it has its own rules and attributes, named with its prefix.
 
 use std::cell::Cell;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use super::annotations::Grouping;
 use super::load::LoadedFile;
-use crate::cga::ast::{self, Declaration, DeclarationKind, Definition, DefinitionKind, Modifier, Text};
+use super::style::InForce;
+use crate::cga::ast::{self, AnnotationValue, DeclarationKind, Definition, DefinitionKind, Import, Modifier, Text};
 use crate::cga::codes;
 use crate::cga::program::{Annotations, AttributeId, FunctionId, RuleId};
-use crate::diagnostics::{Diagnostic, Diagnostics, suggest};
+use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::source::Span;
 
 /// Most imports in the whole tree; a ladder of files that each import the next one twice doubles per step.
-const MAX_INSTANCES: usize = 1000;
+pub const MAX_INSTANCES: usize = 1000;
 
 /// What a name in an expression leads to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,8 +33,11 @@ pub struct Instance {
     pub rules: BTreeMap<Arc<str>, Vec<RuleId>>,
     /// Rules declared with `start`, callable by that name.
     pub starts: Vec<RuleId>,
+    /// What `import.Name` means in this file where it has replaced that extension rule: the imported file's own.
+    pub originals: BTreeMap<Arc<str>, Vec<RuleId>>,
 }
 
+#[derive(Clone)]
 pub struct RuleEntry<'a> {
     pub name: Arc<str>,
     /// Instance in which the body's names are looked up.
@@ -72,6 +75,8 @@ pub struct AttributeEntry<'a> {
     pub is_const: bool,
     pub definition: &'a Definition,
     pub default: Default<'a>,
+    /// Those in front of the definition.
+    pub written: &'a [ast::Annotation],
     pub annotations: Annotations,
     pub span: Span,
 }
@@ -85,16 +90,13 @@ pub struct Tables<'a> {
     pub attributes: Vec<AttributeEntry<'a>>,
     /// For attributes that the importing attribute itself reads: the imported file's own default.
     pub own_defaults: BTreeMap<AttributeId, AttributeId>,
+    /// The instance that a dynamic import call with new rules runs in, by the caller's instance and the call.
+    pub dynamic: BTreeMap<(usize, Span), usize>,
+    /// Instances whose rules are called so.
+    pub called_dynamically: BTreeSet<usize>,
     pub diagnostics: Diagnostics,
     /// See [`crate::cga::program::Program::observes_tags`]; set while bodies are resolved.
     pub observes_tags: Cell<bool>,
-}
-
-/// One definition that is in force, and the style it came from (0 is the default style).
-struct InForce<'a> {
-    style: usize,
-    declaration: &'a Declaration,
-    annotations: Annotations,
 }
 
 impl<'a> Tables<'a> {
@@ -106,26 +108,42 @@ impl<'a> Tables<'a> {
             functions: Vec::new(),
             attributes: Vec::new(),
             own_defaults: BTreeMap::new(),
+            dynamic: BTreeMap::new(),
+            called_dynamically: BTreeSet::new(),
             diagnostics: Diagnostics::default(),
             observes_tags: Cell::new(false),
         }
     }
 
+    /// The main file and all its imports; `style` is one of its own, or `import.Style` for one of an imported file.
     pub fn instantiate_main(&mut self, style: Option<&str>) {
         if !self.files.is_empty() {
             self.instantiate(0, String::new(), style, false);
+            self.dynamic_instances();
         }
     }
 
     fn instantiate(&mut self, file: usize, prefix: String, style: Option<&str>, hidden: bool) -> usize {
         let id = self.instances.len();
         self.instances.push(Instance { prefix, ..Instance::default() });
-        let chain = self.style_chain(file, style);
+        let own = style.filter(|s| self.has_style(file, s) || self.style_of_import(file, s).is_none());
+        let chain = self.style_chain(file, own);
         let in_force = self.in_force(file, &chain);
-        for definition in &in_force {
-            self.declare(id, definition, hidden);
+        let prefixes: BTreeSet<&str> = self.imports_of(file).map(|(import, _)| &*import.prefix.text).collect();
+        let imported = |name: &str| name.split_once('.').is_some_and(|(first, _)| prefixes.contains(first));
+        for InForce { declaration, annotations } in &in_force {
+            match &declaration.kind {
+                DeclarationKind::Rule(rule) if imported(&rule.name.text) => {}
+                DeclarationKind::Rule(rule) => self.declare_rule(id, rule, &declaration.annotations),
+                DeclarationKind::Definition(d) => {
+                    let mut annotations = annotations.clone();
+                    annotations.hidden |= hidden;
+                    self.declare_value(id, d, &declaration.annotations, annotations);
+                }
+                DeclarationKind::Import(_) | DeclarationKind::Style(_) => {}
+            }
         }
-        self.imports(id, file, hidden);
+        self.imports(id, file, style.filter(|_| own.is_none()), hidden);
         for definition in in_force {
             if let DeclarationKind::Rule(rule) = &definition.declaration.kind {
                 self.continue_import(id, rule);
@@ -134,101 +152,28 @@ impl<'a> Tables<'a> {
         id
     }
 
-    /// The styles whose definitions hold, from the default style (0) to the chosen one; styles count from 1.
-    fn style_chain(&mut self, file: usize, style: Option<&str>) -> Vec<usize> {
-        let ast = &self.files[file].ast;
-        let styles: Vec<&ast::Style> = ast
-            .declarations
-            .iter()
-            .filter_map(|d| match &d.kind {
-                DeclarationKind::Style(style) => Some(style),
-                _ => None,
-            })
-            .collect();
-        let names = || styles.iter().map(|s| &*s.name.text);
-        let find = |name: &str| styles.iter().position(|s| &*s.name.text == name);
-        let unknown = |span: Span, name: &str| {
-            let diagnostic = Diagnostic::error(codes::UNKNOWN_STYLE, span, format!("there is no style `{name}`"));
-            match suggest(name, names()) {
-                Some(near) => diagnostic.help(format!("did you mean `{near}`?")),
-                None => diagnostic,
-            }
-        };
-        for style in &styles {
-            if let Some(base) = style.base.as_ref().filter(|b| &*b.text != "Default" && find(&b.text).is_none()) {
-                self.diagnostics.push(unknown(base.span, &base.text));
-            }
-        }
-        let Some(name) = style.filter(|name| *name != "Default") else { return vec![0] };
-        let Some(mut at) = find(name) else {
-            self.diagnostics.push(unknown(Span::new(ast.source, 0, 0), name));
-            return vec![0];
-        };
-        let mut chain = vec![at + 1];
-        while let Some(base) = styles[at].base.as_ref().and_then(|b| find(&b.text)) {
-            if chain.contains(&(base + 1)) {
-                let message = format!("style `{}` extends itself", styles[at].name.text);
-                self.diagnostics.push(Diagnostic::error(codes::UNKNOWN_STYLE, styles[at].name.span, message));
-                break;
-            }
-            chain.push(base + 1);
-            at = base;
-        }
-        chain.push(0);
-        chain.reverse();
-        chain
-    }
-
-    /// The definitions of a file that hold in a chain of styles: a later style replaces the same name and arity.
-    fn in_force(&mut self, file: usize, chain: &[usize]) -> Vec<InForce<'a>> {
+    fn imports_of(&self, file: usize) -> impl Iterator<Item = (&'a Import, &'a [ast::Annotation])> + use<'a> {
         let files = self.files;
-        let (mut style, mut grouping) = (0, Grouping::default());
-        let mut out: Vec<InForce<'a>> = Vec::new();
-        for declaration in &files[file].ast.declarations {
-            let annotations = grouping.read(&declaration.annotations, &mut self.diagnostics);
-            match &declaration.kind {
-                DeclarationKind::Style(_) => style += 1,
-                DeclarationKind::Import(_) => {}
-                kind => {
-                    if style > 0 {
-                        self.refuse_outside_default(kind);
-                    }
-                    if let Some(level) = chain.iter().position(|s| *s == style) {
-                        let replaced = |old: &InForce<'_>| chain.iter().position(|s| *s == old.style) < Some(level);
-                        let key = key(kind);
-                        out.retain(|old| !replaced(old) || self::key(&old.declaration.kind) != key);
-                        let newer = |old: &InForce<'_>| chain.iter().position(|s| *s == old.style) > Some(level);
-                        if !out.iter().any(|old| newer(old) && self::key(&old.declaration.kind) == key) {
-                            out.push(InForce { style, declaration, annotations });
-                        }
-                    }
-                }
-            }
-        }
-        grouping.read(&files[file].ast.trailing, &mut self.diagnostics);
-        out
+        files[file].ast.declarations.iter().filter_map(|d| match &d.kind {
+            DeclarationKind::Import(import) => Some((import, &d.annotations[..])),
+            _ => None,
+        })
     }
 
-    fn refuse_outside_default(&mut self, kind: &DeclarationKind) {
-        if let DeclarationKind::Rule(ast::Rule { modifier: Some(_), name, .. }) = kind {
-            let message = "`start` and `extension` rules belong in the default style";
-            self.diagnostics.push(Diagnostic::error(codes::MISPLACED_DECLARATION, name.span, message));
-        }
+    /// `import.Style`: the import and the rest.
+    fn style_of_import<'s>(&self, file: usize, style: &'s str) -> Option<(&'a Import, &'s str)> {
+        let (prefix, rest) = style.split_once('.')?;
+        let (import, _) = self.imports_of(file).find(|(import, _)| &*import.prefix.text == prefix)?;
+        Some((import, rest))
     }
 
-    fn declare(&mut self, instance: usize, definition: &InForce<'a>, hidden: bool) {
-        match &definition.declaration.kind {
-            DeclarationKind::Rule(rule) => self.declare_rule(instance, rule, &definition.declaration.annotations),
-            DeclarationKind::Definition(d) => {
-                let mut annotations = definition.annotations.clone();
-                annotations.hidden |= hidden;
-                self.declare_value(instance, d, annotations);
-            }
-            DeclarationKind::Import(_) | DeclarationKind::Style(_) => {}
-        }
-    }
-
-    fn declare_value(&mut self, instance: usize, definition: &'a Definition, annotations: Annotations) {
+    fn declare_value(
+        &mut self,
+        instance: usize,
+        definition: &'a Definition,
+        written: &'a [ast::Annotation],
+        annotations: Annotations,
+    ) {
         let text = &definition.name;
         let name: Arc<str> = format!("{}{}", self.instances[instance].prefix, text.text).into();
         let arity = definition.parameters.as_ref().map_or(0, Vec::len);
@@ -245,37 +190,38 @@ impl<'a> Tables<'a> {
                 is_const,
                 definition,
                 default,
+                written,
                 annotations,
                 span,
             });
             Value::Attribute(AttributeId(self.attributes.len() as u32 - 1))
         };
-        let known = self.instances[instance].values.get(&text.text).cloned().unwrap_or_default();
-        let clash = known
-            .iter()
-            .any(|&other| self.value_arity(other) == arity && (arity == 0 || matches!(other, Value::Attribute(_))));
-        if clash {
+        let known = self.instances[instance].values.get(&text.text).map_or(&[][..], Vec::as_slice);
+        let clash =
+            |other: &Value| (arity == 0 || matches!(other, Value::Attribute(_))) && self.value_arity(*other) == arity;
+        if known.iter().any(clash) {
             self.duplicate(span, &text.text);
         }
         self.instances[instance].values.entry(text.text.clone()).or_default().push(value);
     }
 
-    /// The number of parameters; 0 for attributes but `streetWidth(edge)`.
-    pub fn value_arity(&self, value: Value) -> usize {
+    /// The parameters; none for attributes but `streetWidth(edge)`.
+    pub fn value_parameters(&self, value: Value) -> &'a [Text] {
         match value {
             Value::Attribute(id) => match self.attributes[id.0 as usize].default {
-                Default::Written(definition) => definition.parameters.as_ref().map_or(0, Vec::len),
-                Default::Propagated(outer) => self.value_arity(Value::Attribute(outer)),
-                Default::Overridden { .. } => 0,
+                Default::Written(definition) => definition.parameters.as_deref().unwrap_or_default(),
+                Default::Propagated(outer) => self.value_parameters(Value::Attribute(outer)),
+                Default::Overridden { .. } => &[],
             },
-            Value::Function(id) => self.functions[id.0 as usize].definition.parameters.as_ref().map_or(0, Vec::len),
+            Value::Function(id) => self.functions[id.0 as usize].definition.parameters.as_deref().unwrap_or_default(),
         }
     }
 
+    pub fn value_arity(&self, value: Value) -> usize {
+        self.value_parameters(value).len()
+    }
+
     fn declare_rule(&mut self, instance: usize, rule: &'a ast::Rule, annotations: &[ast::Annotation]) {
-        if self.import_of(instance, &rule.name.text).is_some() {
-            return;
-        }
         let starts = rule.modifier == Some(Modifier::Start);
         let id = self.push_rule(RuleEntry {
             name: format!("{}{}", self.instances[instance].prefix, rule.name.text).into(),
@@ -287,7 +233,7 @@ impl<'a> Tables<'a> {
             is_extension: rule.modifier == Some(Modifier::Extension),
             span: rule.name.span,
         });
-        let known = self.instances[instance].rules.get(&rule.name.text).cloned().unwrap_or_default();
+        let known = self.instances[instance].rules.get(&rule.name.text).map_or(&[][..], Vec::as_slice);
         if rule.parameters.is_empty() && known.iter().any(|k| self.rules[k.0 as usize].parameters.is_empty()) {
             self.duplicate(rule.name.span, &rule.name.text);
         }
@@ -308,13 +254,9 @@ impl<'a> Tables<'a> {
             .push(Diagnostic::error(codes::DUPLICATE_DEFINITION, span, message).label("the second definition"));
     }
 
-    fn imports(&mut self, parent: usize, file: usize, hidden: bool) {
+    fn imports(&mut self, parent: usize, file: usize, style: Option<&str>, hidden: bool) {
         let files = self.files;
-        let imports = files[file].ast.declarations.iter().filter_map(|d| match &d.kind {
-            DeclarationKind::Import(import) => Some((import, &d.annotations)),
-            _ => None,
-        });
-        for ((import, annotations), target) in imports.zip(&files[file].imports) {
+        for ((import, annotations), target) in self.imports_of(file).zip(&files[file].imports) {
             if self.instances[parent].children.contains_key(&import.prefix.text) {
                 self.duplicate(import.prefix.span, &import.prefix.text);
                 continue;
@@ -328,10 +270,60 @@ impl<'a> Tables<'a> {
             let hide = annotations.iter().find(|a| &*a.name.text == "Hidden");
             let all = hidden || hide.is_some_and(|a| a.args.is_empty());
             let prefix = format!("{}{}.", self.instances[parent].prefix, import.prefix.text);
-            let child = self.instantiate(target, prefix, None, all);
+            let style = self.imported_style(target, import, file, style);
+            let child = self.instantiate(target, prefix, style, all);
             self.instances[parent].children.insert(import.prefix.text.clone(), child);
             self.connect(parent, child, import);
+            hide.into_iter().for_each(|annotation| self.hide(child, annotation));
         }
+    }
+
+    /// The style of the imported file that was chosen as `import.Style`, if the import allows it (reference 1.12).
+    fn imported_style<'s>(
+        &mut self,
+        target: usize,
+        import: &Import,
+        file: usize,
+        style: Option<&'s str>,
+    ) -> Option<&'s str> {
+        for listed in import.styles.iter().filter(|s| !self.has_style(target, &s.text)).collect::<Vec<_>>() {
+            self.unknown_style(target, listed.span, &listed.text);
+        }
+        let (chosen, name) = self.style_of_import(file, style?)?;
+        if chosen.prefix != import.prefix {
+            return None;
+        }
+        if !import.styles.is_empty() && !import.styles.iter().any(|s| &*s.text == name) {
+            let message = format!("the import leaves out the style `{name}`");
+            self.diagnostics.push(Diagnostic::error(codes::UNKNOWN_STYLE, import.prefix.span, message));
+            return None;
+        }
+        Some(name)
+    }
+
+    /// `@Hidden(a, b)` in front of an import.
+    fn hide(&mut self, child: usize, annotation: &ast::Annotation) {
+        for arg in &annotation.args {
+            let found = match &arg.value {
+                AnnotationValue::Name(name) => self.attribute_named(child, name),
+                _ => None,
+            };
+            match found {
+                Some(id) => self.attributes[id.0 as usize].annotations.hidden = true,
+                None => {
+                    let message = "the imported file has no such attribute";
+                    self.diagnostics.push(Diagnostic::warning(codes::ANNOTATION_ARGUMENT, arg.span, message));
+                }
+            }
+        }
+    }
+
+    /// The attribute or constant that a name means in an instance.
+    pub fn attribute_named(&self, instance: usize, name: &str) -> Option<AttributeId> {
+        self.values(instance, name).iter().find_map(|v| match v {
+            Value::Attribute(id) => Some(*id),
+            Value::Function(_) => None,
+        })
     }
 
     /// The imported instance and the name in it that a dotted name means, if its first part is an import.
@@ -354,6 +346,9 @@ impl<'a> Tables<'a> {
 
     /// The rules of a name, before looking at arguments. `start` is the file's start rule.
     pub fn rules_named(&self, instance: usize, name: &str) -> &[RuleId] {
+        if let Some(originals) = self.instances[instance].originals.get(name) {
+            return originals;
+        }
         let (at, rest) = match self.instances[instance].rules.contains_key(name) {
             true => (instance, name),
             false => self.import_of(instance, name).unwrap_or((instance, name)),
@@ -363,14 +358,5 @@ impl<'a> Tables<'a> {
             None if rest == "start" => &self.instances[at].starts,
             None => &[],
         }
-    }
-}
-
-/// What makes two definitions the same across styles: namespace, name, number of parameters.
-fn key(kind: &DeclarationKind) -> (bool, &str, usize) {
-    match kind {
-        DeclarationKind::Rule(rule) => (true, &rule.name.text, rule.parameters.len()),
-        DeclarationKind::Definition(d) => (false, &d.name.text, d.parameters.as_ref().map_or(0, Vec::len)),
-        DeclarationKind::Import(_) | DeclarationKind::Style(_) => (false, "", usize::MAX),
     }
 }

@@ -38,9 +38,8 @@ impl Body<'_, '_> {
             ItemKind::Boolean { operator, name, mode, left, right } => {
                 self.boolean(*operator, name, mode.as_ref(), left, right.as_deref())
             }
-            ItemKind::Dynamic { prefix, .. } => {
-                self.form(Form::DynamicImport, prefix.span);
-                Item::Discard
+            ItemKind::Dynamic { prefix, overrides, name, args } => {
+                self.dynamic_call(prefix, overrides, name, args, span)
             }
         }
     }
@@ -84,6 +83,9 @@ impl Body<'_, '_> {
 
     /// A symbol that nothing defines: probably a slip, certainly worth a word.
     fn undefined(&mut self, name: &Text, args: &[Argument]) {
+        if self.quiet {
+            return;
+        }
         let rules = self.tables.rules_named(self.scope, &name.text);
         if let Some(id) = rules.first() {
             let takes = self.tables.rules[id.0 as usize].parameters.len();
@@ -136,13 +138,14 @@ impl Body<'_, '_> {
         if operation.observes_tags() {
             self.tables.observes_tags.set(true);
         }
-        self.overload(operation.name(), operation.signatures(), given, span).0
+        self.overload(operation.name(), operation.overloads(), given, span).0
     }
 
     /// `set(name, value)`.
     fn set(&mut self, given: &[Argument], span: Span) -> Item {
         let [target, value] = given else {
-            self.argument_count("set", &[2], given.len(), span);
+            let form = || "its form is set(attribute, any value)".to_owned();
+            self.argument_count("set", &[2], given.len(), span, form);
             return Item::Discard;
         };
         let value = self.plain_argument(value);

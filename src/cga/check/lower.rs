@@ -1,7 +1,9 @@
 //! In: the tables of names. Out: the program, every body resolved.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
+use super::annotation_rules;
 use super::instance::{Default, Tables, Value};
 use super::order;
 use super::types::Types;
@@ -11,9 +13,9 @@ use crate::cga::program::{self, AttributeId, Parameter, Program, RuleFile, RuleI
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::source::Span;
 
-/// Rounds of type inference before mistakes are reported. Each round carries types one call further; the survey's
-/// deepest chains of untyped parameters need two.
-const ROUNDS: usize = 2;
+/// Most rounds of type inference before mistakes are reported. Each round carries types one call further; most files
+/// are settled after two.
+const ROUNDS: usize = 6;
 
 /// Resolves one body: the names in scope and what is learnt about them.
 pub struct Body<'c, 'a> {
@@ -29,6 +31,8 @@ pub struct Body<'c, 'a> {
     pub draws: u32,
     /// Names are selectors first.
     pub in_selector: bool,
+    /// Only types matter in this round: searches for the name that was meant are left out.
+    pub quiet: bool,
     pub diagnostics: Diagnostics,
 }
 
@@ -36,13 +40,40 @@ pub struct Body<'c, 'a> {
 pub fn lower(mut tables: Tables<'_>, diagnostics: &mut Diagnostics, broken: bool) -> Option<Program> {
     let mut types = unknown_types(&tables);
     for _ in 0..ROUNDS {
-        types = infer(&bodies(&tables, &types, &mut Diagnostics::default()));
+        let found = infer(&bodies(&tables, &types, None));
+        let settled = found == types;
+        types = found;
+        if settled {
+            break;
+        }
     }
     clashes(&mut tables, &types);
     diagnostics.extend(std::mem::take(&mut tables.diagnostics));
-    let mut program = bodies(&tables, &types, diagnostics);
+    annotation_rules::check_types(&tables, &types, diagnostics);
+    let mut program = bodies(&tables, &types, Some(diagnostics));
     program.initial_order = order::initial_order(&program, diagnostics);
+    program.import_attributes = import_attributes(&tables, &program.initial_order);
     (!broken && !diagnostics.has_errors()).then_some(program)
+}
+
+/// The attributes of each instance and of what it imports, in the order of evaluation.
+fn import_attributes(tables: &Tables<'_>, order: &[AttributeId]) -> Vec<Vec<AttributeId>> {
+    let mut below: Vec<BTreeSet<usize>> = Vec::new();
+    // An import's instance is made after the importing one.
+    for (id, instance) in tables.instances.iter().enumerate().rev() {
+        let mut all = BTreeSet::from([id]);
+        for child in instance.children.values() {
+            all.extend(&below[tables.instances.len() - 1 - child]);
+        }
+        below.push(all);
+    }
+    below.reverse();
+    let called: BTreeSet<usize> = tables.called_dynamically.clone();
+    let list = |id: usize| {
+        let inside = |a: &&AttributeId| below[id].contains(&tables.attributes[a.0 as usize].scope);
+        order.iter().filter(inside).copied().collect()
+    };
+    (0..tables.instances.len()).map(|id| if called.contains(&id) { list(id) } else { Vec::new() }).collect()
 }
 
 fn unknown_types(tables: &Tables<'_>) -> Types {
@@ -66,32 +97,19 @@ fn infer(program: &Program) -> Types {
 
 /// Definitions with as many parameters as another and no different types.
 fn clashes(tables: &mut Tables<'_>, types: &Types) {
-    let distinct =
-        |a: &[Option<Type>], b: &[Option<Type>]| a.iter().zip(b).any(|(a, b)| a.zip(*b).is_some_and(|(a, b)| a != b));
     let mut found: Vec<(Span, Arc<str>)> = Vec::new();
     for instance in &tables.instances {
         for (name, rules) in &instance.rules {
-            for (i, b) in rules.iter().enumerate() {
-                let parameters = |id: &RuleId| &types.rules[id.0 as usize][..];
-                let same = |a: &RuleId| parameters(a).len() == parameters(b).len() && !parameters(b).is_empty();
-                if rules[..i].iter().any(|a| same(a) && !distinct(parameters(a), parameters(b))) {
-                    found.push((tables.rules[b.0 as usize].span, name.clone()));
-                }
-            }
+            let rules = rules.iter().map(|id| (&types.rules[id.0 as usize][..], tables.rules[id.0 as usize].span));
+            found.extend(repeated(rules).into_iter().map(|span| (span, name.clone())));
         }
         for (name, values) in &instance.values {
-            let parameters = |value: &Value| match value {
-                Value::Function(id) => &types.functions[id.0 as usize].0[..],
-                Value::Attribute(_) => &[],
-            };
-            for (i, b) in values.iter().enumerate() {
-                let same = |a: &Value| parameters(a).len() == parameters(b).len() && !parameters(b).is_empty();
-                if let Value::Function(id) = b
-                    && values[..i].iter().any(|a| same(a) && !distinct(parameters(a), parameters(b)))
-                {
-                    found.push((tables.functions[id.0 as usize].definition.name.span, name.clone()));
-                }
-            }
+            let functions = values.iter().filter_map(|value| match value {
+                Value::Function(id) => Some(id.0 as usize),
+                Value::Attribute(_) => None,
+            });
+            let functions = functions.map(|id| (&types.functions[id].0[..], tables.functions[id].definition.name.span));
+            found.extend(repeated(functions).into_iter().map(|span| (span, name.clone())));
         }
     }
     for (span, name) in found {
@@ -99,21 +117,50 @@ fn clashes(tables: &mut Tables<'_>, types: &Types) {
     }
 }
 
+/// The places of overloads that no types tell from an earlier one; those without parameters are compared elsewhere.
+fn repeated<'t>(overloads: impl Iterator<Item = (&'t [Option<Type>], Span)>) -> Vec<Span> {
+    let mut seen: BTreeSet<&[Option<Type>]> = BTreeSet::new();
+    let mut out = Vec::new();
+    for (types, span) in overloads.filter(|(types, _)| !types.is_empty()) {
+        let alike = |other: &&&[Option<Type>]| {
+            other.len() == types.len() && other.iter().zip(types).all(|(a, b)| a.zip(*b).is_none_or(|(a, b)| a == b))
+        };
+        if seen.contains(types) || seen.iter().find(alike).is_some() {
+            out.push(span);
+        }
+        seen.insert(types);
+    }
+    out
+}
+
+/// Where mistakes go; nowhere in the rounds that only look for types.
+type Reported<'d> = Option<&'d mut Diagnostics>;
+
 /// One round over all bodies.
-fn bodies(tables: &Tables<'_>, types: &Types, diagnostics: &mut Diagnostics) -> Program {
-    let rules: Vec<program::Rule> = (0..tables.rules.len()).map(|id| rule(tables, types, id, diagnostics)).collect();
-    let functions = (0..tables.functions.len()).map(|id| function(tables, types, id, diagnostics)).collect();
-    let attributes = (0..tables.attributes.len()).map(|id| attribute(tables, types, id, diagnostics)).collect();
+fn bodies(tables: &Tables<'_>, types: &Types, mut diagnostics: Option<&mut Diagnostics>) -> Program {
+    let rules: Vec<program::Rule> =
+        (0..tables.rules.len()).map(|id| rule(tables, types, id, &mut diagnostics)).collect();
+    let functions = (0..tables.functions.len()).map(|id| function(tables, types, id, &mut diagnostics)).collect();
+    let attributes = (0..tables.attributes.len()).map(|id| attribute(tables, types, id, &mut diagnostics)).collect();
     let start_rules = rules.iter().enumerate().filter(|(id, r)| r.is_start && tables.rules[*id].scope == 0);
     let start_rules = start_rules.map(|(id, _)| RuleId(id as u32)).collect();
     let files = tables.files.iter().map(|f| RuleFile { source: f.ast.source, folder: f.folder.clone() }).collect();
     let observes_tags = tables.observes_tags.get();
-    Program { rules, functions, attributes, initial_order: Vec::new(), start_rules, files, observes_tags }
+    Program {
+        rules,
+        functions,
+        attributes,
+        initial_order: Vec::new(),
+        start_rules,
+        import_attributes: Vec::new(),
+        files,
+        observes_tags,
+    }
 }
 
-fn rule(tables: &Tables<'_>, types: &Types, id: usize, diagnostics: &mut Diagnostics) -> program::Rule {
+fn rule(tables: &Tables<'_>, types: &Types, id: usize, diagnostics: &mut Reported<'_>) -> program::Rule {
     let entry = &tables.rules[id];
-    let mut body = Body::new(tables, types, entry.scope);
+    let mut body = Body::new(tables, types, entry.scope, diagnostics.is_none());
     body.parameters(entry.parameters, &types.rules[id]);
     let locals = body.locals(entry.locals);
     let successor = body.successor(entry.successor, true);
@@ -127,14 +174,16 @@ fn rule(tables: &Tables<'_>, types: &Types, id: usize, diagnostics: &mut Diagnos
         is_start: entry.is_start,
         span: entry.span,
     };
-    diagnostics.extend(body.diagnostics);
+    if let Some(diagnostics) = diagnostics {
+        diagnostics.extend(body.diagnostics);
+    }
     out
 }
 
-fn function(tables: &Tables<'_>, types: &Types, id: usize, diagnostics: &mut Diagnostics) -> program::Function {
+fn function(tables: &Tables<'_>, types: &Types, id: usize, diagnostics: &mut Reported<'_>) -> program::Function {
     let entry = &tables.functions[id];
     let parameters = entry.definition.parameters.as_deref().unwrap_or_default();
-    let mut body = Body::new(tables, types, entry.scope);
+    let mut body = Body::new(tables, types, entry.scope, diagnostics.is_none());
     body.parameters(parameters, &types.functions[id].0);
     let locals = body.locals(&entry.definition.locals);
     let value = body.expression(&entry.definition.value);
@@ -147,18 +196,21 @@ fn function(tables: &Tables<'_>, types: &Types, id: usize, diagnostics: &mut Dia
         draws: body.draws,
         span: entry.definition.name.span,
     };
-    diagnostics.extend(body.diagnostics);
+    if let Some(diagnostics) = diagnostics {
+        diagnostics.extend(body.diagnostics);
+    }
     out
 }
 
-fn attribute(tables: &Tables<'_>, types: &Types, id: usize, diagnostics: &mut Diagnostics) -> program::Attribute {
+fn attribute(tables: &Tables<'_>, types: &Types, id: usize, diagnostics: &mut Reported<'_>) -> program::Attribute {
     let entry = &tables.attributes[id];
     let mut locals = Vec::new();
     let mut is_map = false;
-    let mut body = match entry.default {
-        Default::Overridden { scope, .. } => Body::new(tables, types, scope),
-        Default::Written(_) | Default::Propagated(_) => Body::new(tables, types, entry.scope),
+    let scope = match entry.default {
+        Default::Overridden { scope, .. } => scope,
+        Default::Written(_) | Default::Propagated(_) => entry.scope,
     };
+    let mut body = Body::new(tables, types, scope, diagnostics.is_none());
     body.attribute = Some(AttributeId(id as u32));
     let default = match entry.default {
         Default::Written(definition) => {
@@ -185,12 +237,14 @@ fn attribute(tables: &Tables<'_>, types: &Types, id: usize, diagnostics: &mut Di
         annotations: entry.annotations.clone(),
         span: entry.span,
     };
-    diagnostics.extend(body.diagnostics);
+    if let Some(diagnostics) = diagnostics {
+        diagnostics.extend(body.diagnostics);
+    }
     out
 }
 
 impl<'c, 'a> Body<'c, 'a> {
-    fn new(tables: &'c Tables<'a>, types: &'c Types, scope: usize) -> Self {
+    fn new(tables: &'c Tables<'a>, types: &'c Types, scope: usize, quiet: bool) -> Self {
         Body {
             tables,
             types,
@@ -200,6 +254,7 @@ impl<'c, 'a> Body<'c, 'a> {
             parameters: 0,
             draws: 0,
             in_selector: false,
+            quiet,
             diagnostics: Diagnostics::default(),
         }
     }

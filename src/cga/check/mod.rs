@@ -6,21 +6,27 @@
 //!    once to report mistakes and keep what was made.
 //! 4. [`order`] sorts the attributes by what they read.
 
+mod annotation_rules;
 mod annotations;
 mod builtin_call;
 mod callable;
+mod dynamic;
 mod expression;
+mod graph;
 mod instance;
 mod item;
 mod load;
 mod lower;
 mod order;
+mod overloads;
 mod overrides;
 mod selector;
+mod style;
 mod successor;
 #[cfg(test)]
 mod tests;
 mod types;
+mod walk;
 
 use std::path::Path;
 

@@ -44,12 +44,12 @@ impl<'a> Tables<'a> {
         }
     }
 
-    fn bad_override(&mut self, name: &Text, message: String) {
+    pub fn bad_override(&mut self, name: &Text, message: String) {
         self.diagnostics.push(Diagnostic::error(codes::BAD_OVERRIDE, name.span, message));
     }
 
     /// The attribute of the imported file that an override names.
-    fn imported_attribute(&mut self, child: usize, name: &Text) -> Option<AttributeId> {
+    pub fn imported_attribute(&mut self, child: usize, name: &Text) -> Option<AttributeId> {
         let found = self.values(child, &name.text).iter().find_map(|v| match v {
             Value::Attribute(id) if !self.attributes[id.0 as usize].is_const => Some(*id),
             _ => None,
@@ -64,7 +64,7 @@ impl<'a> Tables<'a> {
         found
     }
 
-    fn override_rule(
+    pub fn override_rule(
         &mut self,
         parent: usize,
         child: usize,
@@ -79,6 +79,7 @@ impl<'a> Tables<'a> {
             return self.bad_override(name, message);
         };
         let old = &self.rules[id.0 as usize];
+        let original = old.clone();
         if old.parameters.len() != parameters.len() {
             let message =
                 format!("`{}` takes {} parameters, not {}", name.text, old.parameters.len(), parameters.len());
@@ -95,6 +96,11 @@ impl<'a> Tables<'a> {
             span: name.span,
         };
         self.rules[id.0 as usize] = entry;
+        // The importing file still reaches the rule that it replaced, by its full name (reference 1.12).
+        let prefix = &self.instances[child].prefix[self.instances[parent].prefix.len()..];
+        let dotted = format!("{prefix}{}", name.text).into();
+        let original = self.push_rule(original);
+        self.instances[parent].originals.insert(dotted, vec![original]);
     }
 
     /// Lets attributes of the importing file override imported ones of the same name.
@@ -126,6 +132,7 @@ impl<'a> Tables<'a> {
             is_const: true,
             definition: entry.definition,
             default: entry.default,
+            written: &[],
             annotations: Annotations { hidden: true, ..Annotations::default() },
             span: entry.span,
         };

@@ -52,7 +52,7 @@ impl Body<'_, '_> {
 
     /// The arguments of `comp` and `modify`: what is taken apart, and whether the axes are kept.
     pub fn component(&mut self, operation: Operation, args: &[Argument], span: Span) -> (Component, bool) {
-        let (args, _) = self.overload(operation.name(), operation.signatures(), args, span);
+        let (args, _) = self.overload(operation.name(), operation.overloads(), args, span);
         let word = |i: usize| match args.get(i) {
             Some(Arg::Word(word, _)) => Some(*word),
             _ => None,

@@ -40,7 +40,12 @@ impl Body<'_, '_> {
 /// Whether an item creates or discards a shape (reference 2.1).
 fn makes_shapes(item: &Item) -> bool {
     match item {
-        Item::Call { .. } | Item::Leaf { .. } | Item::Discard | Item::Split { .. } | Item::Comp { .. } => true,
+        Item::Call { .. }
+        | Item::Instantiate { .. }
+        | Item::Leaf { .. }
+        | Item::Discard
+        | Item::Split { .. }
+        | Item::Comp { .. } => true,
         Item::Regions { .. } | Item::Scatter { .. } | Item::PerimeterSplit { .. } => true,
         Item::Group(body) => group_makes_shapes(body),
         Item::Operation { .. }

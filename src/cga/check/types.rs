@@ -1,6 +1,6 @@
 //! The types known so far of everything that has a name, and the words messages use for them.
 
-use crate::cga::program::Type;
+use crate::cga::program::{Constant, Type};
 
 /// What is known about parameters and results; `None` where nothing is known.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -51,6 +51,15 @@ pub fn element_of(kind: Type) -> Type {
         Type::Float | Type::Floats => Type::Float,
         Type::Bool | Type::Bools => Type::Bool,
         Type::String | Type::Strings => Type::String,
+    }
+}
+
+/// Whether a literal can be a value, or an element, of this type.
+pub fn is_element_of(constant: &Constant, kind: Type) -> bool {
+    match constant {
+        Constant::Float(_) => element_of(kind) == Type::Float,
+        Constant::Bool(_) => element_of(kind) == Type::Bool,
+        Constant::String(_) => element_of(kind) == Type::String,
     }
 }
 

@@ -41,6 +41,7 @@ pub struct Program {
     pub(in crate::cga) attributes: Vec<Attribute>,
     pub(in crate::cga) initial_order: Vec<AttributeId>,
     pub(in crate::cga) start_rules: Vec<RuleId>,
+    pub(in crate::cga) import_attributes: Vec<Vec<AttributeId>>,
     pub(in crate::cga) files: Vec<RuleFile>,
     pub(in crate::cga) observes_tags: bool,
 }
@@ -182,6 +183,12 @@ impl Program {
     /// The order in which attributes and constants must be evaluated: each after those its default reads.
     pub fn initial_order(&self) -> &[AttributeId] {
         &self.initial_order
+    }
+
+    /// What a dynamic import call ([`Item::Instantiate`]) evaluates again: the attributes and constants of the import
+    /// and of what it imports, each after those its default reads.
+    pub fn import_attributes(&self, import: u32) -> &[AttributeId] {
+        &self.import_attributes[import as usize]
     }
 
     /// Rules marked as start rules, in source order; the first is the host's default.

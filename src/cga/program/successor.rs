@@ -51,6 +51,16 @@ pub enum Item {
         args: Vec<Expr>,
         span: Span,
     },
+    /// `import( a = expr ).Rule(args)`: gives the shape the import's attributes anew, those of `overrides` first and
+    /// as given there, then calls the rule (reference 1.12, dynamic import).
+    Instantiate {
+        /// For [`super::Program::import_attributes`].
+        import: u32,
+        overrides: Vec<(AttributeId, Expr)>,
+        rule: RuleId,
+        args: Vec<Expr>,
+        span: Span,
+    },
     /// A shape without a rule: a leaf.
     Leaf {
         symbol: Arc<str>,

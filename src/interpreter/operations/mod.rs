@@ -174,6 +174,7 @@ pub fn pieces<'p>(run: &mut Derivation<'p>, item: &'p Item, env: &Env) -> Outcom
         Item::Operation { .. }
         | Item::Set { .. }
         | Item::Call { .. }
+        | Item::Instantiate { .. }
         | Item::Leaf { .. }
         | Item::Discard
         | Item::Group(_) => Ok(Vec::new()),
