@@ -71,3 +71,18 @@ pub const WEIGHTS_OVER_100: &str = "cga::weights-over-100";
 pub const DEPRECATED: &str = "cga::deprecated";
 /// Known CGA, but not evaluated by this version.
 pub const NOT_SUPPORTED_YET: &str = "cga::not-supported-yet";
+
+/// A branch, or a selector, that is never taken.
+pub const UNREACHABLE: &str = "cga::unreachable";
+/// A rule or function that calls itself in every case.
+pub const ENDLESS_RECURSION: &str = "cga::endless-recursion";
+/// A rule of the main file that no start rule leads to.
+pub const UNUSED_RULE: &str = "cga::unused-rule";
+/// A part of a split that is never made.
+pub const NEVER_FITS: &str = "cga::never-fits";
+/// A terminal dot behind a name that has a rule.
+pub const NEEDLESS_DOT: &str = "cga::needless-dot";
+/// A construct that meant something else in the version the file was written for.
+pub const CHANGED_MEANING: &str = "cga::changed-meaning";
+/// An operation that the language no longer has.
+pub const REMOVED: &str = "cga::removed";

@@ -3,6 +3,7 @@
 //! In: a rule file and what it imports. Out: a checked [`program::Program`], or diagnostics.
 
 pub mod ast;
+mod ast_walk;
 pub mod builtins;
 mod check;
 pub mod codes;
@@ -10,5 +11,5 @@ mod dump;
 pub mod parse;
 pub mod program;
 
-pub use check::{CompileOptions, compile, compile_text, styles};
+pub use check::{CompileOptions, check, compile, compile_text, styles};
 pub use dump::{dump_ast, dump_program};

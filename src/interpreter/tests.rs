@@ -6,6 +6,7 @@ mod expressions;
 mod files;
 mod flat;
 mod frames;
+mod imports;
 mod limits;
 mod normals;
 mod planar;

@@ -40,7 +40,7 @@ fn check(file: &Path, options: &RecipeOptions, sources: &mut SourceMap) -> Resul
     match file.extension().and_then(|e| e.to_str()) {
         Some("cga") => {
             let access = rule_access(file, &options.allow)?;
-            Ok(cga::compile(file, &access, sources, &cga::CompileOptions::default()).1)
+            Ok(cga::check(file, &access, sources))
         }
         Some("render") => check_recipe(file, options, sources),
         _ => Err(Failure::unable(format!("{}: neither a .cga nor a .render file", file.display()))),

@@ -3,10 +3,9 @@
 
 use super::callable::{bare_name, computed_word, found};
 use super::lower::Body;
-use super::overloads::forms;
 use super::types::type_names;
 use crate::cga::ast::Argument;
-use crate::cga::builtins::{Function, ParameterKind, Signature, Word};
+use crate::cga::builtins::{Function, Operation, ParameterKind, Signature, Word, usage};
 use crate::cga::codes;
 use crate::cga::program::{Arg, Expr, ExprKind, Prefix, Type};
 use crate::diagnostics::{Diagnostic, suggest};
@@ -30,31 +29,58 @@ struct Misfit {
     kind: ParameterKind,
 }
 
+/// What is called.
+#[derive(Clone, Copy)]
+pub enum Builtin {
+    Operation(Operation),
+    Function(Function),
+}
+
+impl Builtin {
+    fn name(self) -> &'static str {
+        match self {
+            Builtin::Operation(operation) => operation.name(),
+            Builtin::Function(function) => function.name(),
+        }
+    }
+
+    fn overloads(self) -> &'static [Signature] {
+        match self {
+            Builtin::Operation(operation) => operation.overloads(),
+            Builtin::Function(function) => function.overloads(),
+        }
+    }
+
+    /// How messages list the overloads.
+    fn forms(self) -> String {
+        let forms = match self {
+            Builtin::Operation(operation) => usage::operation(operation),
+            Builtin::Function(function) => usage::function(function),
+        };
+        format!("{} {}", if forms.len() == 1 { "its form is" } else { "its forms are" }, forms.join(", "))
+    }
+}
+
 impl Body<'_, '_> {
     pub fn builtin_function(&mut self, function: Function, args: &[Argument], span: Span) -> Expr {
         self.status(function.status(), &format!("`{}`", function.name()), span);
         if function.observes_tags() {
             self.tables.observes_tags.set(true);
         }
-        let (args, result) = self.overload(function.name(), function.overloads(), args, span);
+        let (args, result) = self.overload(Builtin::Function(function), args, span);
         let site = function.draws().then(|| self.draw());
         Expr { kind: ExprKind::Builtin { function, args, site }, value: result, span }
     }
 
     /// Chooses among overloads; gives the arguments and the result type.
-    pub fn overload(
-        &mut self,
-        name: &str,
-        signatures: &[Signature],
-        args: &[Argument],
-        span: Span,
-    ) -> (Vec<Arg>, Option<Type>) {
+    pub fn overload(&mut self, builtin: Builtin, args: &[Argument], span: Span) -> (Vec<Arg>, Option<Type>) {
+        let signatures = builtin.overloads();
         let given: Vec<Given<'_>> = args.iter().map(|arg| self.given(arg)).collect();
         let fits = |s: &&Signature| (s.arity().0..=s.arity().1).contains(&given.len());
         let mut of_length = signatures.iter().filter(fits).peekable();
         if of_length.peek().is_none() {
             let counts: Vec<usize> = signatures.iter().flat_map(|s| s.arity().0..=s.arity().1).collect();
-            self.argument_count(name, &counts, given.len(), span, || forms(name, signatures));
+            self.argument_count(builtin.name(), &counts, given.len(), span, || builtin.forms());
             return (Vec::new(), signatures.first().and_then(|s| s.result));
         }
         let mut fitting: Vec<&Signature> = Vec::new();
@@ -73,7 +99,7 @@ impl Body<'_, '_> {
         }
         let Some(&chosen) = fitting.first() else {
             let misfit = misfit.expect("an overload that does not fit has a reason");
-            self.report(misfit, &given, || forms(name, signatures));
+            self.report(misfit, &given, builtin);
             return (Vec::new(), signatures[0].result);
         };
         let certain = fitting.iter().all(|s| s.result == chosen.result);
@@ -123,7 +149,7 @@ impl Body<'_, '_> {
         Arg::Value(prefix, value)
     }
 
-    fn report(&mut self, misfit: Misfit, given: &[Given<'_>], forms: impl FnOnce() -> String) {
+    fn report(&mut self, misfit: Misfit, given: &[Given<'_>], builtin: Builtin) {
         if self.quiet {
             return;
         }
@@ -138,7 +164,7 @@ impl Body<'_, '_> {
             };
             let found = found(arg.value.as_ref().and_then(|v| v.value));
             let error = Diagnostic::error(codes::TYPE_MISMATCH, span, format!("expected {wanted}, found {found}"));
-            return self.diagnostics.push(error.help(forms()));
+            return self.diagnostics.push(error.help(builtin.forms()));
         };
         if words.is_empty() {
             // Resolving it as a value says what is wrong with the name.

@@ -213,6 +213,11 @@ impl Body<'_, '_> {
         if let Some(form) = form {
             self.form(form, span);
         }
+        match word {
+            W::LegacyStreetSide => self.old_form(span, "`streetSide` is an old name", "street.front"),
+            W::LegacyNoStreetSide => self.old_form(span, "`noStreetSide` is an old name", "!street.front"),
+            _ => {}
+        }
         Expr { kind: ExprKind::Selector(word), value: Some(Type::Bool), span }
     }
 }

@@ -8,7 +8,8 @@ use std::sync::Arc;
 use super::callable::own_forms;
 use super::instance::{Instance, MAX_INSTANCES, Tables};
 use super::lower::Body;
-use crate::cga::ast::{self, Argument, ItemKind, Override, Part, SectionBlock, SectionPart, Successor, Text};
+use crate::cga::ast::{self, Argument, ItemKind, Override, Text};
+use crate::cga::ast_walk::{self, Visitor};
 use crate::cga::codes;
 use crate::cga::program::{AttributeId, Expr, Item, RuleId};
 use crate::diagnostics::{Diagnostic, suggest};
@@ -20,9 +21,9 @@ impl<'a> Tables<'a> {
         let mut next = 0;
         while let Some(rule) = self.rules.get(next) {
             let (scope, successor) = (rule.scope, rule.successor);
-            let mut calls: Vec<&'a ast::Item> = Vec::new();
-            dynamic_calls(successor, &mut calls);
-            for call in calls {
+            let mut calls = Calls::default();
+            ast_walk::successor(successor, &mut calls);
+            for call in calls.0 {
                 self.dynamic_instance(scope, call);
             }
             next += 1;
@@ -167,51 +168,14 @@ impl Body<'_, '_> {
     }
 }
 
-/// The dynamic import calls in a successor and in the rules they bring.
-fn dynamic_calls<'a>(successor: &'a Successor, out: &mut Vec<&'a ast::Item>) {
-    match successor {
-        Successor::Sequence(items) => items.iter().for_each(|item| calls_in(item, out)),
-        Successor::Case { branches, otherwise } | Successor::Stochastic { branches, otherwise } => {
-            branches.iter().for_each(|(_, body)| dynamic_calls(body, out));
-            dynamic_calls(otherwise, out);
-        }
-    }
-}
+/// The dynamic import calls in a rule and in the rules they bring.
+#[derive(Default)]
+struct Calls<'a>(Vec<&'a ast::Item>);
 
-fn calls_in<'a>(item: &'a ast::Item, out: &mut Vec<&'a ast::Item>) {
-    match &item.kind {
-        ItemKind::Nil | ItemKind::Plain { .. } => {}
-        ItemKind::Group(body) => dynamic_calls(body, out),
-        ItemKind::Scatter { body, .. } | ItemKind::Inline { body, .. } => dynamic_calls(body, out),
-        ItemKind::Split { block, .. } => calls_in_block(block, out),
-        ItemKind::Selectors { selectors, .. } => selectors.iter().for_each(|s| dynamic_calls(&s.body, out)),
-        ItemKind::Perimeter { block, remainder, .. } => {
-            calls_in_sections(block, out);
-            remainder.iter().for_each(|s| dynamic_calls(&s.body, out));
-        }
-        ItemKind::Boolean { left, right, .. } => {
-            dynamic_calls(left, out);
-            right.iter().for_each(|right| dynamic_calls(right, out));
-        }
-        // Rules that it brings become entries of their own, and are searched there.
-        ItemKind::Dynamic { .. } => out.push(item),
-    }
-}
-
-fn calls_in_block<'a>(block: &'a ast::Block, out: &mut Vec<&'a ast::Item>) {
-    for part in &block.parts {
-        match part {
-            Part::Group(block) => calls_in_block(block, out),
-            Part::Piece { body, .. } | Part::Unsized(body, _) => dynamic_calls(body, out),
-        }
-    }
-}
-
-fn calls_in_sections<'a>(block: &'a SectionBlock, out: &mut Vec<&'a ast::Item>) {
-    for part in &block.parts {
-        match part {
-            SectionPart::Group(block) => calls_in_sections(block, out),
-            SectionPart::Section { body, .. } => dynamic_calls(body, out),
+impl<'a> Visitor<'a> for Calls<'a> {
+    fn item(&mut self, item: &'a ast::Item) {
+        if matches!(item.kind, ItemKind::Dynamic { .. }) {
+            self.0.push(item);
         }
     }
 }

@@ -2,7 +2,9 @@
 
 use std::sync::Arc;
 
+use super::builtin_call::Builtin;
 use super::callable::{bare_name, computed_word, fits};
+use super::deprecated::REMOVED;
 use super::instance::Value;
 use super::lower::Body;
 use crate::cga::ast::{self, Argument, Block, ItemKind, Part, SectionBlock, SectionPart, Text};
@@ -48,6 +50,10 @@ impl Body<'_, '_> {
     fn symbol(&mut self, name: &Text, args: Option<&[Argument]>, terminal: bool, span: Span) -> Item {
         let given = args.unwrap_or_default();
         if let Some(item) = self.rule_call(name, given, span) {
+            if terminal {
+                let message = format!("`{}` is a rule, so the dot behind it has no effect", name.text);
+                self.diagnostics.push(Diagnostic::warning(codes::NEEDLESS_DOT, name.span, message));
+            }
             return item;
         }
         if let Some(operation) = Operation::from_name(&name.text) {
@@ -94,6 +100,12 @@ impl Body<'_, '_> {
             self.diagnostics.push(warning.help(format!("`{}` is defined with {takes}", name.text)));
             return;
         }
+        if let Some((_, now)) = REMOVED.iter().find(|(old, _)| !args.is_empty() && *old == &*name.text) {
+            let message = format!("`{}` is no operation any more", name.text);
+            return self
+                .diagnostics
+                .push(Diagnostic::error(codes::REMOVED, name.span, message).help(format!("use {now}")));
+        }
         let operation = suggest(&name.text, Operation::ALL.iter().map(|o| o.name()));
         if let Some(near) = operation.filter(|_| !args.is_empty()) {
             let message = format!("there is no operation or rule `{}`", name.text);
@@ -120,15 +132,11 @@ impl Body<'_, '_> {
             self.error(codes::MISSING_BLOCK, span, message);
             return Item::Discard;
         }
-        if operation == Operation::InnerRect {
-            let message = "`innerRect` is an old name";
-            let warning = Diagnostic::warning(codes::DEPRECATED, span, message);
-            self.diagnostics.push(warning.help("write `innerRectangle(scope) { shape : ... }`"));
-        }
         let args = self.block_arguments(operation, given, span);
         if operation == Operation::Extrude && matches!(args.first(), Some(Arg::Word(Word::VertexNormal, _))) {
             self.form(Form::VertexNormalExtrusion, span);
         }
+        self.deprecated_form(operation, &args, span);
         Item::Operation { operation, args, span }
     }
 
@@ -138,7 +146,7 @@ impl Body<'_, '_> {
         if operation.observes_tags() {
             self.tables.observes_tags.set(true);
         }
-        self.overload(operation.name(), operation.overloads(), given, span).0
+        self.overload(Builtin::Operation(operation), given, span).0
     }
 
     /// `set(name, value)`.
@@ -316,6 +324,8 @@ impl Body<'_, '_> {
         self.status(Operation::Union.status(), &format!("`{}`", name.text), name.span);
         let left = Box::new(self.successor(left, true));
         let Some(right) = right else {
+            let modern = format!("{0} {{ … | … }}", name.text);
+            self.old_form(name.span, &format!("`{}` with one operand is an old form", name.text), &modern);
             let current = Item::Leaf { symbol: Arc::from("Current"), args: Vec::new(), span: name.span };
             let current = Box::new(Successor::Sequence(Sequence { items: vec![current], implicit_leaf: false }));
             let swap = mode.is_some_and(|m| &*m.text == "swap");

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::annotation_rules;
 use super::instance::{Default, Tables, Value};
+use super::lint;
 use super::order;
 use super::types::Types;
 use crate::cga::ast::{self, Text};
@@ -53,6 +54,9 @@ pub fn lower(mut tables: Tables<'_>, diagnostics: &mut Diagnostics, broken: bool
     let mut program = bodies(&tables, &types, Some(diagnostics));
     program.initial_order = order::initial_order(&program, diagnostics);
     program.import_attributes = import_attributes(&tables, &program.initial_order);
+    if !broken && !diagnostics.has_errors() {
+        lint::lint(&program, &tables, diagnostics);
+    }
     (!broken && !diagnostics.has_errors()).then_some(program)
 }
 

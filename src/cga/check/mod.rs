@@ -10,15 +10,16 @@ mod annotation_rules;
 mod annotations;
 mod builtin_call;
 mod callable;
+mod deprecated;
 mod dynamic;
 mod expression;
 mod graph;
 mod instance;
 mod item;
+mod lint;
 mod load;
 mod lower;
 mod order;
-mod overloads;
 mod overrides;
 mod selector;
 mod style;
@@ -75,21 +76,57 @@ pub fn compile_text(
 /// The styles a file declares, in source order, without those of its imports.
 pub fn styles(file: &SourceFile) -> Vec<std::sync::Arc<str>> {
     let (ast, _) = on_big_stack(|| super::parse::parse(file));
-    let style = |d: super::ast::Declaration| match d.kind {
-        super::ast::DeclarationKind::Style(style) => Some(style.name.text),
-        _ => None,
-    };
-    ast.declarations.into_iter().filter_map(style).collect()
+    style::names(&ast)
+}
+
+/// Every diagnostic of a rule file with everything it imports, in all its styles, each once.
+pub fn check(path: &Path, access: &Access, sources: &mut SourceMap) -> Diagnostics {
+    on_big_stack(|| {
+        let mut loader = load::Loader::new(Some(access), sources);
+        loader.main_file(path, access);
+        every_style(&loader.finish())
+    })
 }
 
 fn finish(loader: load::Loader<'_>, options: &CompileOptions) -> (Option<Program>, Diagnostics) {
-    let load::Loaded { files, mut diagnostics } = loader.finish();
-    let broken = diagnostics.has_errors();
-    let mut tables = instance::Tables::new(&files);
-    tables.instantiate_main(options.style.as_deref());
-    let program = lower::lower(tables, &mut diagnostics, broken);
+    let loaded = loader.finish();
+    let (program, diagnostics) = in_style(&loaded, options.style.as_deref());
     let diagnostics = diagnostics.sorted();
     (program.filter(|_| !diagnostics.has_errors()), diagnostics)
+}
+
+fn in_style(loaded: &load::Loaded, style: Option<&str>) -> (Option<Program>, Diagnostics) {
+    let mut diagnostics = loaded.diagnostics.clone();
+    let broken = diagnostics.has_errors();
+    lint::old_versions(&loaded.files, &mut diagnostics);
+    let mut tables = instance::Tables::new(&loaded.files);
+    tables.instantiate_main(style);
+    let program = lower::lower(tables, &mut diagnostics, broken);
+    (program, diagnostics)
+}
+
+/// The default style and those of the main file. A rule is unused only if no style that has it uses it.
+fn every_style(loaded: &load::Loaded) -> Diagnostics {
+    let styles = loaded.files.first().map_or_else(Vec::new, |file| style::names(&file.ast));
+    let (default, of_default) = in_style(loaded, None);
+    let mut all = of_default.clone();
+    let mut found: Vec<(Program, Diagnostics)> = Vec::new();
+    for name in styles {
+        let (program, diagnostics) = in_style(loaded, Some(&name));
+        if let (Some(default), Some(program)) = (&default, &program) {
+            style::kept_types(default, program, &mut all);
+        }
+        all.extend(diagnostics.clone());
+        found.extend(program.map(|program| (program, diagnostics)));
+    }
+    found.extend(default.map(|program| (program, of_default)));
+    all.retain(|d| {
+        let used = |(program, own): &(Program, Diagnostics)| {
+            program.rules.iter().any(|rule| rule.span == d.span) && !own.iter().any(|o| o == d)
+        };
+        d.code != super::codes::UNUSED_RULE || !found.iter().any(used)
+    });
+    all.sorted()
 }
 
 fn on_big_stack<T: Send>(work: impl FnOnce() -> T + Send) -> T {

@@ -1,5 +1,6 @@
 //! In: selector blocks, of operations and of the comp function. Out: resolved selectors.
 
+use super::builtin_call::Builtin;
 use super::lower::Body;
 use super::types::{array_of, type_name};
 use crate::cga::ast::{self, Argument};
@@ -52,7 +53,7 @@ impl Body<'_, '_> {
 
     /// The arguments of `comp` and `modify`: what is taken apart, and whether the axes are kept.
     pub fn component(&mut self, operation: Operation, args: &[Argument], span: Span) -> (Component, bool) {
-        let (args, _) = self.overload(operation.name(), operation.overloads(), args, span);
+        let (args, _) = self.overload(Builtin::Operation(operation), args, span);
         let word = |i: usize| match args.get(i) {
             Some(Arg::Word(word, _)) => Some(*word),
             _ => None,

@@ -1,13 +1,15 @@
 //! In: the declarations of a file and a chosen style. Out: the definitions that hold in it (reference 1.13).
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use super::annotations::Grouping;
 use super::instance::Tables;
-use crate::cga::ast::{self, Declaration, DeclarationKind, DefinitionKind};
+use super::types::type_name;
+use crate::cga::ast::{self, Ast, Declaration, DeclarationKind, DefinitionKind};
 use crate::cga::codes;
-use crate::cga::program::Annotations;
-use crate::diagnostics::{Diagnostic, suggest};
+use crate::cga::program::{Annotations, Program, Type};
+use crate::diagnostics::{Diagnostic, Diagnostics, suggest};
 use crate::source::Span;
 
 /// One definition that is in force.
@@ -139,5 +141,33 @@ fn key(kind: &DeclarationKind) -> Option<Key<'_>> {
         DeclarationKind::Rule(rule) => Some((true, &rule.name.text, rule.parameters.len())),
         DeclarationKind::Definition(d) => Some((false, &d.name.text, d.parameters.as_ref().map_or(0, Vec::len))),
         DeclarationKind::Import(_) | DeclarationKind::Style(_) => None,
+    }
+}
+
+/// The styles of a file, in source order.
+pub fn names(ast: &Ast) -> Vec<Arc<str>> {
+    let style = |d: &Declaration| match &d.kind {
+        DeclarationKind::Style(style) => Some(style.name.text.clone()),
+        _ => None,
+    };
+    ast.declarations.iter().filter_map(style).collect()
+}
+
+/// Definitions whose type in a style is not that of the default style.
+pub fn kept_types(default: &Program, program: &Program, diagnostics: &mut Diagnostics) {
+    let attributes = |p: &'_ Program| -> BTreeMap<Arc<str>, (Option<Type>, Span)> {
+        let attributes = p.attributes.iter().map(|a| (a.name.clone(), (a.kind, a.span)));
+        attributes.chain(p.functions.iter().map(|f| (f.path.clone(), (f.body.value, f.span)))).collect()
+    };
+    let base = attributes(default);
+    for (name, (kind, span)) in attributes(program) {
+        let Some((wanted, at)) = base.get(&name).copied().filter(|(_, at)| *at != span) else { continue };
+        if let (Some(kind), Some(wanted)) = (kind, wanted)
+            && kind != wanted
+            && at.source == span.source
+        {
+            let message = format!("this is {} here and {} in the default style", type_name(kind), type_name(wanted));
+            diagnostics.push(Diagnostic::error(codes::STYLE_MISMATCH, span, message));
+        }
     }
 }

@@ -208,9 +208,9 @@ fn accepts_what_the_reference_allows() {
         "attr a = [1:3] .* 2 .+ [1, 0, 1] attr b = floatArray[1:2] attr c = a[0] + 1 attr d = a[a .== 2]",
         "A(x) with(y := x / 2 z := y * 2) --> B(z) B(w) --> t(0, w, 0) C.",
         "A --> case scope.sx > 3 : 50% : B. else : C. else : NIL",
-        "A --> start(3) start B(x) --> extrude(x)",
-        "A --> i(\"builtin:cube\") i(\"a.obj\", yUp, keepSizeAndPosition)",
-        "A --> alignScopeToGeometry(yUp, any, longest) alignScopeToGeometry(zUp, 0, 1) alignScopeToGeometry(yUp, auto)",
+        "start A --> start(3) start B(x) --> extrude(x)",
+        "A --> i(\"a.obj\") i(\"a.obj\", yUp, keepSizeAndPosition)",
+        "A --> alignScopeToGeometry(yUp, any, longest) alignScopeToGeometry(zUp, 0, 1) alignScopeToGeometry(yUp, any, world.lowest)",
         "inside = 3 A --> offset(-1, inside) extrude(inside)",
         "A --> set(material.name, \"x\") set(scope.sx, 3) set(material.colormap.su, 2) set(seedian, 3)",
         "A --> setback(2) { all : B. | remainder : C. } setback([1, 2]) { front : D. }",
@@ -276,7 +276,7 @@ fn attributes_are_ordered_by_what_they_read() {
 #[test]
 fn annotations_are_read() {
     let found = program(
-        "@Group(\"Size\", 1) @Range(0, 10) @Order(2) @Description(\"how high\") attr h = 3\n\
+        "@Group(\"Size\", 1) @Range(min=0, max=10) @Order(2) @Description(\"how high\") attr h = 3\n\
          @Hidden @Enum(\"a\", \"b\", restricted=false) attr k = \"a\"\n@Group @Range(min=-1, stepsize=0.5) attr d = 1\n\
          @StartRule Lot --> extrude(h)",
     );

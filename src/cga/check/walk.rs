@@ -1,9 +1,11 @@
 //! Walks over the checked program. In: an expression or a successor. Out: a call for every part of it.
 
-use crate::cga::program::{Arg, Expr, ExprKind, Item, PerimeterItem, SectionPattern, SplitBlock, SplitItem, Successor};
+use crate::cga::program::{
+    Arg, Expr, ExprKind, Item, PerimeterItem, SectionPattern, SetTarget, SplitBlock, SplitItem, Successor,
+};
 
 /// Calls `visit` for an expression and everything in it, in the order of the text.
-pub fn expressions(expr: &Expr, visit: &mut dyn FnMut(&Expr)) {
+pub fn expressions<'p>(expr: &'p Expr, visit: &mut dyn FnMut(&'p Expr)) {
     visit(expr);
     match &expr.kind {
         ExprKind::Number(_) | ExprKind::Bool(_) | ExprKind::String(_) | ExprKind::Slot(_) => {}
@@ -31,7 +33,7 @@ pub fn expressions(expr: &Expr, visit: &mut dyn FnMut(&Expr)) {
     }
 }
 
-fn arguments(args: &[Arg], visit: &mut dyn FnMut(&Expr)) {
+fn arguments<'p>(args: &'p [Arg], visit: &mut dyn FnMut(&'p Expr)) {
     for arg in args {
         match arg {
             Arg::Value(_, e) | Arg::ComputedWord(e) => expressions(e, visit),
@@ -94,6 +96,49 @@ pub fn items<'p>(successor: &'p Successor, visit: &mut dyn FnMut(&'p Item)) {
         Successor::Case { branches, otherwise } | Successor::Stochastic { branches, otherwise, .. } => {
             branches.iter().for_each(|(_, body)| items(body, visit));
             items(otherwise, visit);
+        }
+    }
+}
+
+/// The expressions directly in an item, without those of the successors inside it.
+pub fn expressions_of(item: &Item) -> Vec<&Expr> {
+    fn values(args: &[Arg]) -> impl Iterator<Item = &Expr> {
+        args.iter().filter_map(|arg| match arg {
+            Arg::Value(_, e) | Arg::ComputedWord(e) => Some(e),
+            Arg::Word(..) => None,
+        })
+    }
+    match item {
+        Item::Discard | Item::Group(_) | Item::Inline { .. } | Item::Boolean { .. } => Vec::new(),
+        Item::Operation { args, .. } | Item::Scatter { args, .. } => values(args).collect(),
+        Item::Set { target: SetTarget::Computed(name), value, .. } => vec![name, value],
+        Item::Set { value, .. } => vec![value],
+        Item::Call { args, .. } | Item::Leaf { args, .. } => args.iter().collect(),
+        Item::Instantiate { overrides, args, .. } => overrides.iter().map(|(_, e)| e).chain(args).collect(),
+        Item::Comp { selectors, .. } | Item::Modify { selectors, .. } => selectors.iter().map(|s| &s.test).collect(),
+        Item::Regions { args, selectors, .. } => values(args).chain(selectors.iter().map(|s| &s.test)).collect(),
+        Item::Split { block, .. } => sizes(block),
+        Item::PerimeterSplit { args, pattern, .. } => {
+            let mut out: Vec<&Expr> = values(args).collect();
+            lengths(pattern, &mut out);
+            out
+        }
+    }
+}
+
+fn sizes(block: &SplitBlock) -> Vec<&Expr> {
+    let size = |item| match item {
+        &SplitItem::Piece { ref size, .. } => vec![size],
+        SplitItem::Group(block) => sizes(block),
+    };
+    block.items.iter().flat_map(size).collect()
+}
+
+fn lengths<'p>(pattern: &'p SectionPattern, out: &mut Vec<&'p Expr>) {
+    for item in &pattern.items {
+        match item {
+            PerimeterItem::Section { length, depth, .. } => out.extend([length, depth]),
+            PerimeterItem::Group(pattern) => lengths(pattern, out),
         }
     }
 }
