@@ -24,6 +24,10 @@ pub fn instantiate(
     let seed = shape.seed;
     for &id in program.import_attributes(import).iter().filter(|id| !kept.contains(id)) {
         let attribute = program.attribute(id);
+        // The streets around the initial shape stay where they are.
+        if attribute.is_map {
+            continue;
+        }
         let value = match host_value(run, attribute) {
             Some(value) => value,
             None => {
