@@ -15,7 +15,8 @@ use mansard::cga::{CompileOptions, compile_text};
 use mansard::geometry::mesh::Loop;
 use mansard::geometry::{Face, Mesh};
 use mansard::interpreter::seed::Seed;
-use mansard::interpreter::{Limits, NoAssets, ShapeTree, StartShape, derive};
+use mansard::interpreter::tree::ShapeTree;
+use mansard::interpreter::{Limits, NoAssets, StartShape, derive};
 use mansard::source::SourceMap;
 
 #[global_allocator]
