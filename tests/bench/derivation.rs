@@ -12,7 +12,6 @@ use divan::counter::ItemsCount;
 use glam::DVec3;
 use mansard::cga::program::Program;
 use mansard::cga::{CompileOptions, compile_text};
-use mansard::geometry::mesh::Loop;
 use mansard::geometry::{Face, Mesh};
 use mansard::interpreter::seed::Seed;
 use mansard::interpreter::tree::ShapeTree;
@@ -39,13 +38,8 @@ fn start_shape(number: u64, (width, depth): (f64, f64)) -> StartShape {
     let (x, z) = (3.0 * number as f64, -2.0 * number as f64);
     let corners = [(0.0, 0.0), (width, 0.0), (width, -depth), (0.0, -depth)];
     let positions = corners.iter().map(|&(dx, dz)| DVec3::new(x + dx, 0.0, z + dz)).collect();
-    StartShape {
-        mesh: Mesh { positions, faces: vec![Face::new(Loop::from([0, 1, 2, 3]))] },
-        start_rule: None,
-        attributes: Vec::new(),
-        seed: Seed::root(number),
-        name: "lot".into(),
-    }
+    let mesh = Mesh { positions, faces: vec![Face::new([0, 1, 2, 3])] };
+    StartShape::new(mesh, Seed::root(number), "lot")
 }
 
 /// One model: its rules in both languages and how to count what comes out.
