@@ -10,6 +10,7 @@ pub mod extrude;
 pub mod grid;
 #[cfg(test)]
 mod hard_cases;
+pub mod largest_rectangle;
 pub mod mesh;
 pub mod mesh_checks;
 pub mod normals;

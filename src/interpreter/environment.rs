@@ -3,7 +3,7 @@
 
 use std::cell::Cell;
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use super::seed::Seed;
 use super::shape::Shape;
@@ -18,6 +18,20 @@ pub struct Facet {
     pub direction: DVec3,
     pub is_border: bool,
     pub roof_edge: Option<RoofEdge>,
+    /// Of face edges, where `uv` selectors ask for it.
+    pub uv_side: Option<UvSide>,
+}
+
+/// A face edge in texture space.
+#[derive(Clone, Copy, Debug)]
+pub struct UvSide {
+    /// Away from the face, as long as the edge.
+    pub outward: DVec2,
+    /// Both ends have the least or greatest coordinate of the geometry.
+    pub u_min: bool,
+    pub u_max: bool,
+    pub v_min: bool,
+    pub v_max: bool,
 }
 
 /// Where a component is in the mesh it was taken from.
@@ -62,6 +76,12 @@ impl<'e> Env<'e> {
     pub fn on_component<'c>(&'c self, shape: &'c Shape, outer: &'c Shape, facets: &'c [Facet]) -> Env<'c> {
         let (salt, slots) = (self.salt, self.slots);
         Env { shape, slots, salt, calls: Cell::new(0), component: Some(facets), outer: Some(outer) }
+    }
+
+    /// The same declaration on another shape.
+    pub fn on_shape<'c>(&'c self, shape: &'c Shape) -> Env<'c> {
+        let (salt, slots) = (self.salt, self.slots);
+        Env { shape, slots, salt, calls: Cell::new(0), component: self.component, outer: self.outer }
     }
 
     /// A function called from here, with its own slots.

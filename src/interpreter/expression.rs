@@ -10,7 +10,7 @@ use super::choice;
 use super::derivation::Derivation;
 use super::environment::{Env, Facet, RoofEdge};
 use super::limits::{Outcome, Stop};
-use super::operations::comp;
+use super::operations::{comp, setback_uv};
 use super::shape::Shape;
 use super::value::Value;
 use super::{array, attribute, functions, streets};
@@ -183,8 +183,14 @@ pub fn facet_matches(run: &Derivation, word: Word, facet: &Facet, outer: &Shape)
         Word::Hip => facet.roof_edge == Some(RoofEdge::Hip),
         Word::Valley => facet.roof_edge == Some(RoofEdge::Valley),
         Word::Ridge => facet.roof_edge == Some(RoofEdge::Ridge),
+        Word::UvLeft | Word::UvRight | Word::UvBottom | Word::UvTop => uv_agrees(word, facet),
+        Word::UvUMin | Word::UvUMax | Word::UvVMin | Word::UvVMax => uv_agrees(word, facet),
         other => streets::facet_agrees(run, other, facet, outer).unwrap_or(false),
     }
+}
+
+fn uv_agrees(word: Word, facet: &Facet) -> bool {
+    facet.uv_side.as_ref().and_then(|side| setback_uv::agrees(word, side)).unwrap_or(false)
 }
 
 /// Leaves of the expression tree, evaluated without bookkeeping.

@@ -40,7 +40,7 @@ forms! {
     CompFunction "the comp function" Evaluated
     SplitUv "split(u | v, ...)" Evaluated
     StreetSelector "street selectors" Evaluated
-    UvSelector "uv selectors" NotYet
+    UvSelector "uv selectors" Evaluated
     RoofEdgeSelector "the selectors eave, hip, valley and ridge" Evaluated
     VertexNormalExtrusion "extrude(vertex.normal, ...)" Evaluated
     DynamicImport "a dynamic import call" Evaluated

@@ -63,7 +63,7 @@ operations! {
         "S {yUp zUp}? {alignSizeAndPosition keepSizeAndPosition keepSizeAlignPosition}? {numericalCleanup noCleanup}?"
     ]
     Inline "inline" NotYet ["{append unify recompose}?"]
-    InnerRect "innerRect" NotYet [""]
+    InnerRect "innerRect" Evaluated [""]
     InnerRectangle "innerRectangle" Evaluated ["{scope edge}"]
     InsertAlongUv "insertAlongUV" NotYet ["F S F {scope.y vertex.normal}? {alignPosition keepPosition}?"]
     Intersect "intersect" NotYet [""]
@@ -108,8 +108,8 @@ operations! {
     SetPivot "setPivot" Evaluated ["{xyz yzx zxy yUp zUp} F"]
     SetTagsFromEdgeAttrs "setTagsFromEdgeAttrs" NotYet [""]
     Setback "setback" Evaluated ["F F?", "F[] F?"]
-    SetbackPerEdge "setbackPerEdge" NotYet ["F F?"]
-    SetbackToArea "setbackToArea" NotYet ["F F?", "F F[] F?", "F F[] F[] F?"]
+    SetbackPerEdge "setbackPerEdge" Evaluated ["F F?"]
+    SetbackToArea "setbackToArea" Evaluated ["F F?", "F F[] F?", "F F[] F[] F?"]
     // With five arguments the last one is the uw factor (an old overload).
     SetupProjection "setupProjection" Evaluated [
         "F {scope.xy scope.xz scope.yx scope.yz scope.zx scope.zy world.xy world.xz world.yx world.yz world.zx world.zy} F~ F~ F?",
@@ -120,7 +120,7 @@ operations! {
     ShapeU "shapeU" Evaluated ["F F F"]
     SoftenNormals "softenNormals" Evaluated ["F"]
     Split "split" Evaluated ["{x y z} {adjust noAdjust}?", "{u v} {uvSpace unitSpace} F"]
-    SplitAndSetbackPerimeter "splitAndSetbackPerimeter" NotYet ["F'", "F' F B[]"]
+    SplitAndSetbackPerimeter "splitAndSetbackPerimeter" Evaluated ["F'", "F' F B[]"]
     SplitArea "splitArea" Evaluated ["{x y z} {adjust noAdjust}?"]
     Subtract "subtract" NotYet [""]
     T "t" Evaluated ["F' F' F'"]

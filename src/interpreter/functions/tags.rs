@@ -58,7 +58,8 @@ fn is_tagged(input: &Input, env: &Env) -> bool {
     }
     let form = &env.shape.form;
     let Some(tags) = form.tags() else { return false };
-    let place = |place: Place| Facet { place, direction: glam::DVec3::ZERO, is_border: false, roof_edge: None };
+    let place =
+        |place: Place| Facet { place, direction: glam::DVec3::ZERO, is_border: false, roof_edge: None, uv_side: None };
     let tagged = |p: Place| facet_is_tagged(tags, &form.mesh, &place(p), &query, part);
     if !form.mesh.faces.is_empty() {
         (0..form.mesh.faces.len() as u32).any(|f| tagged(Place::Face(f)))

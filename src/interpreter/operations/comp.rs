@@ -130,7 +130,7 @@ fn holds<'p>(
 }
 
 /// Kind of seed of a component that is only looked at.
-const COMPONENT: u64 = 4 << 40;
+pub const COMPONENT: u64 = 4 << 40;
 
 /// Whether some selector asks for eaves, hips, valleys or ridges.
 fn wants_roof_edges(tests: &[Test]) -> bool {

@@ -26,7 +26,7 @@ fn list(parts: impl Iterator<Item = (Part, Facet)>) -> List {
 }
 
 fn facet(place: Place, direction: DVec3, is_border: bool) -> Facet {
-    Facet { place, direction, is_border, roof_edge: None }
+    Facet { place, direction, is_border, roof_edge: None, uv_side: None }
 }
 
 fn face_part(mesh: &Mesh, face: &Face, normal: DVec3) -> Part {

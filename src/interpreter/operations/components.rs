@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use glam::{DMat3, DVec3};
 
-use super::super::environment::{Facet, Place};
+use super::super::environment::{Facet, Place, UvSide};
 use super::super::form::Form;
 use super::super::placement::{Frame, perpendicular};
 use super::super::shape::{Scope, Shape};
@@ -65,6 +65,13 @@ impl Components {
     pub fn facets(&self, i: usize) -> &[Facet] {
         let end = self.parts.get(i + 1).map_or(self.facets.len(), |next| next.facets as usize);
         &self.facets[self.parts[i].facets as usize..end]
+    }
+
+    /// Notes where a face edge is in texture space.
+    pub fn set_uv_side(&mut self, i: usize, side: UvSide) {
+        if let Some(facet) = self.parts.get(i).and_then(|part| self.facets.get_mut(part.facets as usize)) {
+            facet.uv_side = Some(side);
+        }
     }
 
     /// The shape of some components: the frame of the first, fitted to all. `group` is not empty.

@@ -1,36 +1,22 @@
-//! `innerRectangle` (reference 4.5.6; compatibility notes). In: directions to try. Out: the largest rectangle inside
-//! every face, and what remains around it.
-//!
-//! For a direction and a pair of lines across it, the free stretches between them are exact: an edge of the polygon
-//! blocks the heights it passes through between the lines. The lines are searched: first over all corners and evenly
-//! between, then by shrinking steps around the best pair.
+//! `innerRectangle` and the old `innerRect` (reference 4.5.6; compatibility notes). In: directions to try. Out: the
+//! largest rectangle inside every face, and what remains around it.
 
 use glam::DVec2;
 
 use super::super::derivation::Derivation;
 use super::super::shape::Shape;
 use super::args::Args;
+use super::plan_faces::PlanFaces;
 use super::regions::{Regions, named};
+use super::strips;
 use crate::cga::builtins::Word;
 use crate::cga::program::Selector;
-use crate::geometry::{PlaneFrame, Polygon, boolean};
-
-/// A rectangle in turned coordinates.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Rectangle {
-    low: DVec2,
-    high: DVec2,
-}
-
-impl Rectangle {
-    fn area(&self) -> f64 {
-        let size = self.high - self.low;
-        size.x * size.y
-    }
-}
+use crate::geometry::largest_rectangle::{Rectangle, largest_upright};
+use crate::geometry::polygon::centroid;
+use crate::geometry::{PlaneFrame, Polygon, boolean, polygon};
 
 pub fn regions(run: &mut Derivation, args: &Args, parent: &Shape, selectors: &[Selector]) -> Regions {
-    let mut out = Regions { by_selector: vec![Vec::new(); selectors.len()] };
+    let mut out = Regions { by_selector: vec![Vec::new(); selectors.len()], distances: None };
     let mesh = &parent.form.mesh;
     for (number, face) in mesh.faces.iter().enumerate() {
         let Some(frame) = PlaneFrame::of_face(mesh, face) else { continue };
@@ -39,7 +25,10 @@ pub fn regions(run: &mut Derivation, args: &Args, parent: &Shape, selectors: &[S
             Some(Word::Edge) => edge_directions(&polygon),
             _ => vec![scope_direction(parent, &frame)],
         };
-        let Some(rectangle) = largest(&polygon, &directions) else { continue };
+        let Some(rectangle) = largest(&polygon, &directions) else {
+            run.warn("cga::inner-rectangle", args.span, || "there is no rectangle inside this face".into());
+            continue;
+        };
         if let Some(place) = named(selectors, Word::Shape) {
             out.by_selector[place].push((number, rectangle.clone()));
         }
@@ -48,6 +37,7 @@ pub fn regions(run: &mut Derivation, args: &Args, parent: &Shape, selectors: &[S
                 Ok(rest) => {
                     let least = SLIVER * polygon.area();
                     let rest = rest.into_iter().filter(|p| p.area() > least);
+                    let rest = rest.map(|p| strips::starting_on(p, strips::edges(&polygon.outer)));
                     out.by_selector[place].extend(rest.map(|p| (number, p)));
                 }
                 Err(error) => run.warn("cga::inner-rectangle", args.span, || format!("the remainder is lost: {error}")),
@@ -55,6 +45,26 @@ pub fn regions(run: &mut Derivation, args: &Args, parent: &Shape, selectors: &[S
         }
     }
     out
+}
+
+/// `innerRect`: the largest rectangle along the scope's axes in place of every face.
+pub fn replace(run: &mut Derivation, args: &Args, shape: &mut Shape) {
+    shape.bake();
+    let source = shape.form.clone();
+    let mut faces = PlanFaces::new(&source);
+    for (number, face) in source.mesh.faces.iter().enumerate() {
+        let Some(frame) = PlaneFrame::of_face(&source.mesh, face) else { continue };
+        let polygon = frame.face_to_plan(&source.mesh, face);
+        if let Some(rectangle) = largest(&polygon, &[scope_direction(shape, &frame)]) {
+            faces.push(&faces.face(number, frame), &rectangle);
+        }
+    }
+    let form = faces.into_form();
+    if form.mesh.faces.is_empty() {
+        run.warn("cga::inner-rectangle", args.span, || "there is no face that holds a rectangle".into());
+        return;
+    }
+    shape.replace(form);
 }
 
 /// Remainders below this share of the face are not made.
@@ -89,8 +99,7 @@ fn edge_directions(polygon: &Polygon) -> Vec<DVec2> {
 
 /// The largest rectangle with a side along one of the directions; of equals, the one nearest to the middle.
 fn largest(polygon: &Polygon, directions: &[DVec2]) -> Option<Polygon> {
-    let corners: Vec<DVec2> = polygon.outer.clone();
-    let middle = corners.iter().sum::<DVec2>() / corners.len().max(1) as f64;
+    let middle = middle(polygon);
     let mut best: Option<(f64, f64, [DVec2; 4])> = None;
     for &d in directions {
         let across = d.perp();
@@ -99,98 +108,30 @@ fn largest(polygon: &Polygon, directions: &[DVec2]) -> Option<Polygon> {
             outer: polygon.outer.iter().map(turned).collect(),
             holes: polygon.holes.iter().map(|h| h.iter().map(turned).collect()).collect(),
         };
-        let Some(r) = search(&local, turned(&middle)) else { continue };
+        let Some(found) = largest_upright(&local, turned(&middle)) else { continue };
+        let Rectangle { low, high } = found;
         let back = |x: f64, y: f64| d * x + across * y;
-        let ring = [back(r.low.x, r.low.y), back(r.high.x, r.low.y), back(r.high.x, r.high.y), back(r.low.x, r.high.y)];
+        let ring = [back(low.x, low.y), back(high.x, low.y), back(high.x, high.y), back(low.x, high.y)];
         let off = ring.iter().sum::<DVec2>().distance(middle * 4.0);
-        let better = best
-            .as_ref()
-            .is_none_or(|(area, o, _)| r.area() > area * (1.0 + 1e-9) || (r.area() > area * (1.0 - 1e-9) && off < *o));
+        let better = best.as_ref().is_none_or(|(area, o, _)| {
+            found.area() > area * (1.0 + 1e-9) || (found.area() > area * (1.0 - 1e-9) && off < *o)
+        });
         if better {
-            best = Some((r.area(), off, ring));
+            best = Some((found.area(), off, ring));
         }
     }
     best.map(|(_, _, ring)| Polygon { outer: ring.to_vec(), holes: Vec::new() })
 }
 
-/// Lines tried beside the corners, and rounds of refinement.
-const EVEN_LINES: usize = 24;
-const ROUNDS: usize = 40;
-
-fn search(polygon: &Polygon, middle: DVec2) -> Option<Rectangle> {
-    let (low, high) = polygon.bounds()?;
-    let mut lines: Vec<f64> = polygon.rings().flatten().map(|p| p.x).collect();
-    lines.extend((1..EVEN_LINES).map(|i| low.x + (high.x - low.x) * i as f64 / EVEN_LINES as f64));
-    lines.sort_by(f64::total_cmp);
-    lines.dedup_by(|a, b| *a - *b < 1e-9 * (high.x - low.x));
-    let mut best: Option<Rectangle> = None;
-    for (i, &x0) in lines.iter().enumerate() {
-        for &x1 in &lines[i + 1..] {
-            improve(&mut best, between(polygon, x0, x1), middle);
-        }
+/// The centre of mass, holes left out.
+fn middle(polygon: &Polygon) -> DVec2 {
+    let (mut sum, mut area) = (DVec2::ZERO, 0.0);
+    for (i, ring) in polygon.rings().enumerate() {
+        let share = polygon::signed_area(ring).abs() * if i == 0 { 1.0 } else { -1.0 };
+        sum += centroid(ring) * share;
+        area += share;
     }
-    let mut best = best?;
-    let mut step = (high.x - low.x) / EVEN_LINES as f64;
-    for _ in 0..ROUNDS {
-        let before = best;
-        for (a, b) in
-            [(-1.0, 0.0), (1.0, 0.0), (0.0, -1.0), (0.0, 1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, -1.0)]
-        {
-            let mut candidate = Some(best);
-            improve(&mut candidate, between(polygon, best.low.x + a * step, best.high.x + b * step), middle);
-            best = candidate.unwrap_or(best);
-        }
-        if best == before {
-            step /= 2.0;
-        }
-    }
-    Some(best)
-}
-
-fn improve(best: &mut Option<Rectangle>, found: Option<Rectangle>, middle: DVec2) {
-    let Some(found) = found else { return };
-    let off = |r: &Rectangle| (r.low + r.high).distance(middle * 2.0);
-    let better = best.is_none_or(|b| {
-        found.area() > b.area() * (1.0 + 1e-12) || (found.area() >= b.area() * (1.0 - 1e-12) && off(&found) < off(&b))
-    });
-    if better {
-        *best = Some(found);
-    }
-}
-
-/// The highest free rectangle from line x0 to line x1.
-fn between(polygon: &Polygon, x0: f64, x1: f64) -> Option<Rectangle> {
-    let width = x1 - x0;
-    if width.is_nan() || width <= 0.0 {
-        return None;
-    }
-    let mut blocked: Vec<(f64, f64)> = Vec::new();
-    for ring in polygon.rings() {
-        for i in 0..ring.len() {
-            let (p, q) = (ring[i], ring[(i + 1) % ring.len()]);
-            let (left, right) = if p.x <= q.x { (p, q) } else { (q, p) };
-            if right.x <= x0 || left.x >= x1 {
-                continue;
-            }
-            let at = |x: f64| left.y + (right.y - left.y) * ((x - left.x) / (right.x - left.x)).clamp(0.0, 1.0);
-            let (a, b) = if right.x > left.x { (at(x0), at(x1)) } else { (left.y, right.y) };
-            blocked.push((a.min(b), a.max(b)));
-        }
-    }
-    blocked.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let mut best: Option<Rectangle> = None;
-    let mut top = blocked.first()?.1;
-    for &(low, high) in &blocked[1..] {
-        if low > top {
-            let free = Rectangle { low: DVec2::new(x0, top), high: DVec2::new(x1, low) };
-            let inside = polygon.contains((free.low + free.high) / 2.0);
-            if inside && best.is_none_or(|b| free.area() > b.area()) {
-                best = Some(free);
-            }
-        }
-        top = top.max(high);
-    }
-    best
+    if area > 0.0 { sum / area } else { centroid(&polygon.outer) }
 }
 
 #[cfg(test)]
@@ -198,17 +139,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn finds_the_large_wing_of_an_l() {
+    fn finds_the_large_wing_of_a_turned_l() {
         let l = [(0.0, 0.0), (50.0, 0.0), (50.0, 22.0), (24.0, 22.0), (24.0, 46.0), (0.0, 46.0)];
-        let polygon = Polygon { outer: l.iter().map(|&(x, y)| DVec2::new(x, y)).collect(), holes: Vec::new() };
+        let (sin, cos) = libm::sincos(0.3);
+        let outer = l.iter().map(|&(x, y)| DVec2::new(x * cos - y * sin, x * sin + y * cos)).collect();
+        let polygon = Polygon { outer, holes: Vec::new() };
         let found = largest(&polygon, &edge_directions(&polygon)).expect("an L holds a rectangle");
         assert!((found.area() - 24.0 * 46.0).abs() < 1e-6, "{found:?}");
-    }
-
-    #[test]
-    fn a_triangle_holds_half_its_area() {
-        let outer = vec![DVec2::ZERO, DVec2::new(8.0, 0.0), DVec2::new(0.0, 6.0)];
-        let found = largest(&Polygon { outer, holes: Vec::new() }, &[DVec2::X]).expect("there is room");
-        assert!((found.area() - 12.0).abs() < 1e-3, "{found:?}");
     }
 }

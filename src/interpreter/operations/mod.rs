@@ -22,6 +22,7 @@ mod insert_cleanup;
 mod mirror;
 mod normals;
 mod offset;
+mod perimeter;
 mod plan_faces;
 mod primitive;
 mod regions;
@@ -36,10 +37,15 @@ mod scatter_solid;
 mod set;
 mod set_material;
 mod set_pivot;
+mod setback;
 mod setback_tags;
+mod setback_to_area;
+pub mod setback_uv;
+mod shape_wings;
 mod split;
 mod split_area;
 mod split_pattern;
+mod split_perimeter;
 mod split_sizes;
 mod split_uv;
 mod strips;
@@ -93,6 +99,7 @@ pub fn apply(
         O::AlignScopeToAxes => align_to_axes::apply(run, &args, shape),
         O::AlignScopeToGeometry => align_to_geometry::apply(run, &args, shape),
         O::AlignScopeToGeometryBBox => align_to_box::apply(run, &args, shape),
+        O::InnerRect => inner_rectangle::replace(run, &args, shape),
         O::Footprint => footprint::apply(run, &args, shape),
         O::Taper => taper::apply(run, &args, shape),
         O::Extrude => extrude::apply(run, &args, shape)?,
@@ -161,13 +168,12 @@ pub fn pieces<'p>(run: &mut Derivation<'p>, item: &'p Item, env: &Env) -> Outcom
             comp::pieces(run, *component, *keep_axes, selectors, *span, env)
         }
         Item::Regions { operation, args, selectors, span } => {
-            let evaluated = run.eval_args(args, env)?;
-            regions::pieces(run, *operation, &Args::new(&evaluated, *span), selectors, env)
+            regions::pieces(run, *operation, args, selectors, *span, env)
         }
-        Item::PerimeterSplit { span, .. }
-        | Item::Modify { span, .. }
-        | Item::Inline { span, .. }
-        | Item::Boolean { span, .. } => {
+        Item::PerimeterSplit { args, pattern, remainder, span } => {
+            split_perimeter::pieces(run, args, pattern, remainder.as_deref(), *span, env)
+        }
+        Item::Modify { span, .. } | Item::Inline { span, .. } | Item::Boolean { span, .. } => {
             not_evaluated(run, "this form", *span);
             Ok(Vec::new())
         }

@@ -18,6 +18,10 @@ pub fn apply(run: &mut Derivation, args: &Args, shape: &mut Shape) {
     }
     shape.bake();
     let source = shape.form.clone();
+    if source.mesh.faces.is_empty() {
+        run.warn("cga::no-face", args.span, || "there is no face to offset".into());
+        return;
+    }
     let mut out = PlanFaces::new(&source);
     // Per result face: whether it is the border of an edge, and of which.
     let mut borders: Vec<Option<(usize, usize)>> = Vec::new();

@@ -14,26 +14,70 @@ fn key(p: DVec2) -> Key {
     (p + DVec2::ZERO).to_array().map(f64::to_bits)
 }
 
-/// The union of the rings.
-pub fn joined(rings: &[&[DVec2]]) -> Vec<Polygon> {
+/// The loops of one strip: around it, and around parts it does not cover.
+pub type Loops<'a> = Vec<&'a [DVec2]>;
+
+/// The union of the strips.
+pub fn joined(strips: &[Loops]) -> Vec<Polygon> {
     let mut parts: Vec<Vec<&[DVec2]>> = Vec::new();
-    for ring in rings {
-        // The rings of all earlier parts this one touches along an edge.
-        let (mut touching, apart): (Vec<_>, Vec<_>) = parts.into_iter().partition(|part| shares_edge(part, ring));
+    for strip in strips {
+        // The loops of all earlier parts this one touches along an edge.
+        let (mut touching, apart): (Vec<_>, Vec<_>) = parts.into_iter().partition(|part| shares_edge(part, strip));
         parts = apart;
         let mut merged: Vec<&[DVec2]> = touching.drain(..).flatten().collect();
-        merged.push(ring);
+        merged.extend(strip);
         parts.push(merged);
     }
     parts.iter().flat_map(|part| outline(part)).collect()
 }
 
-fn edges<'a>(ring: &'a [DVec2]) -> impl Iterator<Item = (DVec2, DVec2)> + 'a {
+/// The polygon with its outline started at the edge nearest to the first edge of `first`.
+pub fn starting_near(mut polygon: Polygon, first: &Polygon) -> Polygon {
+    let [a, b, ..] = first.outer[..] else { return polygon };
+    let along = b - a;
+    let distance = |p: DVec2| {
+        let length = along.length_squared();
+        let share = if length > 0.0 { ((p - a).dot(along) / length).clamp(0.0, 1.0) } else { 0.0 };
+        p.distance(a + along * share)
+    };
+    let mut best = (0, f64::INFINITY);
+    for (i, (p, q)) in edges(&polygon.outer).enumerate() {
+        let d = distance((p + q) / 2.0);
+        if d < best.1 - 1e-9 * along.length() {
+            best = (i, d);
+        }
+    }
+    polygon.outer.rotate_left(best.0);
+    polygon
+}
+
+/// The polygon with its outline started at its first edge on one of these segments, tried in order and run the same way.
+pub fn starting_on(mut polygon: Polygon, segments: impl Iterator<Item = (DVec2, DVec2)>) -> Polygon {
+    for (a, b) in segments {
+        let along = b - a;
+        let near = 1e-7 * along.length();
+        let off = |p: DVec2| (p - a).perp_dot(along).abs() > near * along.length();
+        let within =
+            |p: DVec2| (p - a).dot(along) >= -near * along.length() && (p - b).dot(along) <= near * along.length();
+        let on = |&(p, q): &(DVec2, DVec2)| {
+            !off(p) && !off(q) && within(p) && within(q) && (q - p).dot(along) > near * along.length()
+        };
+        let place = edges(&polygon.outer).position(|edge| on(&edge));
+        if let Some(place) = place {
+            polygon.outer.rotate_left(place);
+            return polygon;
+        }
+    }
+    polygon
+}
+
+pub fn edges<'a>(ring: &'a [DVec2]) -> impl Iterator<Item = (DVec2, DVec2)> + 'a {
     (0..ring.len()).map(move |i| (ring[i], ring[(i + 1) % ring.len()]))
 }
 
-fn shares_edge(part: &[&[DVec2]], ring: &[DVec2]) -> bool {
-    part.iter().any(|other| edges(ring).any(|(a, b)| edges(other).any(|(c, d)| a == d && b == c)))
+fn shares_edge(part: &[&[DVec2]], strip: &[&[DVec2]]) -> bool {
+    let own = || strip.iter().flat_map(|ring| edges(ring));
+    part.iter().any(|other| own().any(|(a, b)| edges(other).any(|(c, d)| a == d && b == c)))
 }
 
 /// The edges that are not run both ways, chained into loops.
@@ -109,12 +153,12 @@ mod tests {
         let (o, i) =
             ([(0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0)], [(1.0, 1.0), (3.0, 1.0), (3.0, 3.0), (1.0, 3.0)]);
         let strips: Vec<Ring> = (0..4).map(|k| ring(&[o[k], o[(k + 1) % 4], i[(k + 1) % 4], i[k]])).collect();
-        let all: Vec<&[DVec2]> = strips.iter().map(Vec::as_slice).collect();
+        let all: Vec<Loops> = strips.iter().map(|s| vec![s.as_slice()]).collect();
         let whole = joined(&all);
         assert_eq!(whole.len(), 1);
         assert_eq!((whole[0].area(), whole[0].holes.len()), (12.0, 1));
         assert_eq!(whole[0].outer[..2], strips[0][..2]);
-        let opposite = joined(&[all[0], all[2]]);
+        let opposite = joined(&[all[0].clone(), all[2].clone()]);
         assert_eq!(opposite.iter().map(Polygon::area).collect::<Vec<_>>(), [3.0, 3.0]);
         assert_eq!(joined(&all[..3]).iter().map(Polygon::area).collect::<Vec<_>>(), [9.0]);
     }
