@@ -5,6 +5,7 @@
 
 pub mod layout;
 pub mod manifest;
+pub mod reports;
 pub mod writer;
 
 pub use layout::{image_path, is_levir_label};

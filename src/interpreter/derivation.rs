@@ -3,7 +3,7 @@
 //! Rules run from an explicit work list, children before later siblings, so leaves come out depth first in the order
 //! of creation. Nothing here recurses on the depth of rules.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use super::StartShape;
@@ -12,10 +12,11 @@ use super::leaves::Leaves;
 use super::limits::{Limits, Outcome, Stop};
 use super::outline::Outline;
 use super::placement::Frame;
+use super::reports::Reports;
 use super::shape::Shape;
 use super::start;
 use super::streets::Streets;
-use super::tree::{Report, ShapeTree};
+use super::tree::ShapeTree;
 use super::value::Value;
 use crate::cga::program::{Program, RuleId};
 use crate::diagnostics::{Diagnostic, Diagnostics};
@@ -38,7 +39,7 @@ pub struct Derivation<'p> {
     /// What the derivation began with, before its attributes were known.
     pub initial: Option<Shape>,
     pub leaves: Leaves,
-    pub reports: BTreeMap<Arc<str>, Report>,
+    pub reports: Reports,
     pub prints: Vec<String>,
     printed: usize,
     diagnostics: Diagnostics,
@@ -120,7 +121,7 @@ impl<'p> Derivation<'p> {
             start_rule: "".into(),
             initial: None,
             leaves: Leaves::default(),
-            reports: BTreeMap::new(),
+            reports: Reports::default(),
             prints: Vec::new(),
             printed: 0,
             diagnostics: Diagnostics::default(),
@@ -139,7 +140,7 @@ impl<'p> Derivation<'p> {
         let _stopped = self.work();
         ShapeTree {
             leaves: self.leaves.into_list(),
-            reports: self.reports.into_values().collect(),
+            reports: self.reports.into_list(),
             prints: self.prints,
             diagnostics: self.diagnostics,
         }

@@ -4,7 +4,8 @@
 use serde_json::{Map, Value, json};
 
 use super::material::Material;
-use super::tree::{Leaf, Report, Scalar, ShapeTree};
+use super::reports::Report;
+use super::tree::{Leaf, Scalar, ShapeTree};
 use crate::diagnostics::Rendered;
 use crate::source::SourceMap;
 
@@ -15,7 +16,7 @@ pub fn to_json(tree: &ShapeTree, sources: &SourceMap) -> Value {
         .iter()
         .map(|d| serde_json::to_value(Rendered::new(d, sources)).expect("plain strings and numbers serialise"))
         .collect();
-    let reports: Map<String, Value> = tree.reports.iter().map(|r| (r.name.to_string(), report(r))).collect();
+    let reports: Map<String, Value> = tree.reports.iter().map(|r| (report_key(r, &tree.reports), report(r))).collect();
     json!({
         "leaves": tree.leaves.iter().map(leaf).collect::<Vec<_>>(),
         "reports": reports,
@@ -79,11 +80,20 @@ fn scalar(value: &Scalar) -> Value {
     }
 }
 
+/// The name; with the type where values of several types were reported under it.
+fn report_key(report: &Report, all: &[Report]) -> String {
+    match all.iter().filter(|r| r.name == report.name).count() {
+        1 => report.name.to_string(),
+        _ => format!("{} ({})", report.name, report.kind.name()),
+    }
+}
+
 fn report(report: &Report) -> Value {
     json!({
+        "type": report.kind.name(),
         "count": report.count,
         "sum": report.sum,
-        "average": report.sum / report.count as f64,
+        "average": report.average(),
         "min": report.min,
         "max": report.max,
     })

@@ -30,6 +30,7 @@ mod orientation;
 mod outline;
 mod placement;
 mod projection;
+pub mod reports;
 pub mod seed;
 mod shape;
 mod start;

@@ -13,6 +13,7 @@ mod planar;
 mod planar_properties;
 mod properties;
 mod random;
+mod reports;
 mod roofs;
 mod scatter;
 mod scenes;

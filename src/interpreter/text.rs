@@ -1,7 +1,8 @@
-//! The tree for people (`mansard derive --format tree`). In: a tree. Out: one line per leaf, then reports and prints.
+//! The tree for people (`mansard derive --format tree`). In: a tree. Out: one line per leaf, then a table of reports, then prints.
 
 use std::fmt::Write;
 
+use super::reports::table;
 use super::tree::{Leaf, ShapeTree};
 use super::value::format_float;
 
@@ -10,13 +11,7 @@ pub fn to_text(tree: &ShapeTree) -> String {
     for leaf in &tree.leaves {
         leaf_line(&mut out, leaf);
     }
-    for r in &tree.reports {
-        let [sum, average, min, max] = [r.sum, r.sum / r.count as f64, r.min, r.max].map(format_float);
-        add(
-            &mut out,
-            format_args!("report {}: count {}, sum {sum}, average {average}, min {min}, max {max}", r.name, r.count),
-        );
-    }
+    out.push_str(&table(&tree.reports));
     for line in &tree.prints {
         add(&mut out, format_args!("print {line}"));
     }

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::material::Material;
+use super::reports::Report;
 use crate::diagnostics::Diagnostics;
 use crate::geometry::Mesh;
 
@@ -28,22 +29,12 @@ pub struct Leaf {
     pub mesh: Mesh,
 }
 
-/// Summary of one `report` key.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Report {
-    pub name: Arc<str>,
-    pub count: u64,
-    pub sum: f64,
-    pub min: f64,
-    pub max: f64,
-}
-
 /// The result of deriving one start shape.
 #[derive(Clone, Debug, Default)]
 pub struct ShapeTree {
     /// Depth first, in creation order.
     pub leaves: Vec<Leaf>,
-    /// Sorted by name.
+    /// Sorted by name, then by type.
     pub reports: Vec<Report>,
     pub prints: Vec<String>,
     /// Warnings and errors met while deriving; with an error the leaves are those made before it.

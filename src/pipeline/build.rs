@@ -5,9 +5,10 @@ use super::error::PipelineError;
 use super::place::{Place, place};
 use super::progress::Progress;
 use super::recipe::Recipe;
-use super::record::{Reports, asset_files, geometry_hash};
+use super::record::{asset_files, geometry_hash, report_records};
 use super::textures;
 use crate::dataset::manifest::{ChangeRecord, ChangedFeature, InputFile, SceneRecord};
+use crate::dataset::reports::SceneReports;
 use crate::diagnostics::Diagnostics;
 use crate::geodata::ledger::{Ledger, Outcome};
 use crate::geodata::projection::LocalFrame;
@@ -28,6 +29,7 @@ pub struct BuiltScene {
     pub frame: LocalFrame,
     pub terrain: Terrain,
     pub record: SceneRecord,
+    pub reports: SceneReports,
     /// Textures and geometry files that rules named.
     pub files: Vec<InputFile>,
     /// Mistakes met while deriving.
@@ -78,6 +80,7 @@ pub fn build_scene(recipe: &Recipe, index: usize, progress: &dyn Progress) -> Re
     for missing in textures.missing {
         ledger.record(format!("texture {missing}"), Outcome::FellBack("drawn without texture".to_owned()));
     }
+    let reports = SceneReports { scene: spec.name.clone(), features: derived.reports };
     let record = record(
         &scene,
         spec.name.clone(),
@@ -85,12 +88,13 @@ pub fn build_scene(recipe: &Recipe, index: usize, progress: &dyn Progress) -> Re
         &frame,
         ground.worst_error_m,
         changed,
-        derived.reports,
+        &reports,
         ledger,
         features.len(),
     );
     progress.end(&format!("{} triangles", record.triangles));
-    Ok(BuiltScene { scene, frame, terrain, record, files, diagnostics: derived.diagnostics, prints: derived.prints })
+    let (diagnostics, prints) = (derived.diagnostics, derived.prints);
+    Ok(BuiltScene { scene, frame, terrain, record, reports, files, diagnostics, prints })
 }
 
 #[expect(clippy::too_many_arguments, reason = "the fields of one record")]
@@ -101,7 +105,7 @@ fn record(
     frame: &LocalFrame,
     terrain_error_m: f64,
     changes: Vec<ChangeRecord>,
-    reports: Reports,
+    reports: &SceneReports,
     ledger: Ledger,
     features: usize,
 ) -> SceneRecord {
@@ -115,7 +119,7 @@ fn record(
         triangles: scene.objects.iter().map(|o| o.mesh.triangles.len()).sum(),
         terrain_error_m,
         changes,
-        reports: reports.0,
+        reports: report_records(&reports.totals()),
         ledger,
     }
 }

@@ -12,7 +12,6 @@ use super::lot::{Lot, Relief, relief};
 use super::place::Place;
 use super::progress::Progress;
 use super::recipe::Recipe;
-use super::record::Reports;
 use crate::diagnostics::{Diagnostics, Severity};
 use crate::geodata::feature::{Feature, Outline};
 use crate::geodata::features::ribbon::{Cap, caps};
@@ -21,6 +20,7 @@ use crate::geodata::tags::{self, Defaults, TagValue};
 use crate::geodata::terrain::Terrain;
 use crate::interpreter::assets::Assets;
 use crate::interpreter::limits::Limits;
+use crate::interpreter::reports::Report;
 use crate::interpreter::seed::Seed;
 use crate::interpreter::tree::{Scalar, ShapeTree};
 use crate::interpreter::{HostData, StartShape, derive};
@@ -40,7 +40,8 @@ pub struct Derivation {
     pub outcomes: Vec<Outcome>,
     /// Assumptions only.
     pub ledger: Ledger,
-    pub reports: Reports,
+    /// By feature, without those that reported nothing, in the order of the features.
+    pub reports: Vec<(String, Vec<Report>)>,
     pub diagnostics: Diagnostics,
     /// Lines of `print`, in the order of the features.
     pub prints: Vec<String>,
@@ -51,7 +52,7 @@ struct Derived {
     outcome: Outcome,
     states: Vec<StateParts>,
     ledger: Ledger,
-    reports: Reports,
+    reports: Vec<Report>,
     diagnostics: Diagnostics,
     prints: Vec<String>,
 }
@@ -109,14 +110,16 @@ pub fn derive_features(
         features: Vec::new(),
         outcomes: Vec::new(),
         ledger: Ledger::default(),
-        reports: Reports::default(),
+        reports: Vec::new(),
         diagnostics: Diagnostics::default(),
         prints: Vec::new(),
     };
     for (feature, derived) in place.features.iter().zip(derived) {
         out.outcomes.push(derived.outcome);
         out.ledger.merge(derived.ledger);
-        out.reports.merge(derived.reports);
+        if !derived.reports.is_empty() {
+            out.reports.push((feature.id.to_string(), derived.reports));
+        }
         out.diagnostics.extend(derived.diagnostics);
         out.prints.extend(derived.prints);
         if !derived.states.is_empty() {
@@ -165,7 +168,7 @@ impl Context<'_> {
             outcome: Outcome::Ok,
             states: Vec::new(),
             ledger: Ledger::default(),
-            reports: Reports::default(),
+            reports: Vec::new(),
             diagnostics: Diagnostics::default(),
             prints: Vec::new(),
         };
@@ -225,7 +228,7 @@ impl Context<'_> {
             out.outcome = Outcome::Skipped(why);
             out.diagnostics.extend(tree.diagnostics);
             out.states.clear();
-            out.reports = Reports::default();
+            out.reports = Vec::new();
             out.prints.clear();
             return;
         }
@@ -235,10 +238,10 @@ impl Context<'_> {
             out.outcome = Outcome::FellBack(simpler.message.clone());
         }
         let parts = lot.parts(&tree.leaves, &self.place.terrain);
+        let ShapeTree { diagnostics, prints, reports, .. } = tree;
         if counts_once {
-            out.reports.add(&tree.reports);
+            out.reports = reports;
         }
-        let ShapeTree { diagnostics, prints, .. } = tree;
         out.diagnostics.extend(diagnostics);
         out.prints.extend(prints);
         out.states.push(StateParts { presence, change, level, parts });

@@ -10,42 +10,21 @@ use super::recipe::Recipe;
 use crate::dataset::manifest::{AcquisitionRecord, InputFile, ReportRecord};
 use crate::dataset::writer::sha256;
 use crate::interpreter::FileAssets;
-use crate::interpreter::tree::Report;
+use crate::interpreter::reports::Report;
 use crate::plan::demand::{Projection, ViewDemand};
 use crate::plan::sun::to_angles;
 use crate::scene::Scene;
 use crate::source::SourceMap;
 use crate::spec::render_spec::{FileRef, Origin};
 
-/// Sums of `report` over features.
-#[derive(Clone, Debug, Default)]
-pub struct Reports(pub BTreeMap<String, ReportRecord>);
-
-impl Reports {
-    pub fn add(&mut self, reports: &[Report]) {
-        for report in reports {
-            let record = ReportRecord { count: report.count, sum: report.sum, min: report.min, max: report.max };
-            self.join(report.name.to_string(), record);
-        }
-    }
-
-    pub fn merge(&mut self, other: Reports) {
-        for (name, record) in other.0 {
-            self.join(name, record);
-        }
-    }
-
-    fn join(&mut self, name: String, record: ReportRecord) {
-        let sum = self.0.entry(name).or_insert(ReportRecord {
-            min: f64::INFINITY,
-            max: f64::NEG_INFINITY,
-            ..ReportRecord::default()
-        });
-        sum.count += record.count;
-        sum.sum += record.sum;
-        sum.min = sum.min.min(record.min);
-        sum.max = sum.max.max(record.max);
-    }
+/// Sums of `report` over features, by name; by name and type where there are several types.
+pub fn report_records(totals: &[Report]) -> BTreeMap<String, ReportRecord> {
+    let key = |report: &Report| match totals.iter().filter(|r| r.name == report.name).count() {
+        1 => report.name.to_string(),
+        _ => format!("{} ({})", report.name, report.kind.name()),
+    };
+    let record = |r: &Report| ReportRecord { count: r.count, sum: r.sum, min: r.min, max: r.max };
+    totals.iter().map(|report| (key(report), record(report))).collect()
 }
 
 /// Every input by content: texts as they were read, map and elevation files from disk.

@@ -12,6 +12,7 @@ use super::recipe::Recipe;
 use super::record::{acquisition_record, inputs};
 use super::views::{SceneViews, scene_views};
 use crate::dataset::manifest::{Generator, Manifest, RendererInfo, ViewRecord};
+use crate::dataset::reports::{self, SceneReports};
 use crate::dataset::writer::{WrittenFile, write_file};
 use crate::dataset::{DatasetError, image_path, is_levir_label, write_image};
 use crate::frame::{Frame, Image, Pixels};
@@ -69,6 +70,7 @@ pub fn render_dataset(
         scene_files.push(write_file(&options.output, Path::new(&name), &glb)?);
         built.push(scene);
     }
+    scene_files.extend(write_reports(&built, &options.output)?);
 
     // Images.
     let mut renderer = Renderer::new()?;
@@ -97,6 +99,16 @@ pub fn render_dataset(
     }
     summary.other_files.extend(scene_files.into_iter().map(|f| f.path));
     Ok(summary)
+}
+
+/// `reports.csv` and `reports.json` of all scenes, if any rule reports.
+fn write_reports(built: &[BuiltScene], folder: &Path) -> Result<Vec<WrittenFile>, DatasetError> {
+    let scenes: Vec<SceneReports> = built.iter().map(|scene| scene.reports.clone()).collect();
+    if !reports::any(&scenes) {
+        return Ok(Vec::new());
+    }
+    let csv = write_file(folder, Path::new("reports.csv"), &reports::to_csv(&scenes))?;
+    Ok(vec![csv, write_file(folder, Path::new("reports.json"), &reports::to_json(&scenes))?])
 }
 
 /// Draws views one after another; a second thread encodes and writes the images of the one before.

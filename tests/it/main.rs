@@ -3,6 +3,7 @@
 mod bad_input;
 mod golden;
 mod pipeline;
+mod projects;
 mod syncw;
 mod tidy;
 mod workshop;

@@ -37,6 +37,9 @@ pub enum Command {
         /// The .glb file; recipes of several scenes get one file each, `NAME-SCENE.glb`
         #[arg(short, long, value_name = "FILE")]
         output: PathBuf,
+        /// What the rules report, per feature and in total, as a .csv or .json file
+        #[arg(long, value_name = "FILE")]
+        reports: Option<PathBuf>,
         #[command(flatten)]
         options: RecipeOptions,
         #[command(flatten)]
@@ -51,6 +54,9 @@ pub enum Command {
         /// Only these views, by name, `*` stands for anything; several with commas
         #[arg(long, value_delimiter = ',', value_name = "VIEWS")]
         views: Vec<String>,
+        /// What the rules report, per feature and in total, as one more .csv or .json file; the dataset has both anyway
+        #[arg(long, value_name = "FILE")]
+        reports: Option<PathBuf>,
         #[command(flatten)]
         options: RecipeOptions,
         #[command(flatten)]
@@ -125,6 +131,9 @@ pub struct DeriveArgs {
     /// Standard output otherwise
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
+    /// What the rules report, as a .csv or .json file
+    #[arg(long, value_name = "FILE")]
+    pub reports: Option<PathBuf>,
     /// One more folder tree that rules may read from
     #[arg(long, value_name = "DIR")]
     pub allow: Vec<PathBuf>,

@@ -12,6 +12,7 @@ use mansard::source::SourceMap;
 use crate::args::{RecipeOptions, WorkOptions};
 use crate::progress::Reporter;
 use crate::report::{self, Failure};
+use crate::reports;
 
 impl RecipeOptions {
     /// The library's form of these options.
@@ -50,10 +51,12 @@ pub fn load(path: &Path, options: &RecipeOptions, sources: &mut SourceMap, quiet
 pub fn run(
     path: &Path,
     output: &Path,
+    reports_file: Option<&PathBuf>,
     options: &RecipeOptions,
     work: &WorkOptions,
     reporter: &Reporter,
 ) -> Result<(), Failure> {
+    reports::check(reports_file)?;
     use_threads(work)?;
     let mut sources = SourceMap::default();
     let recipe = load(path, options, &mut sources, reporter.is_quiet())?;
@@ -61,14 +64,17 @@ pub fn run(
     aside(output).map_err(|source| Failure::unable(OutputError::new(output, source).to_string()))?;
     let several = recipe.spec.scenes.len() > 1;
     let mut failed = false;
+    let mut all_reports = Vec::new();
     for index in 0..recipe.spec.scenes.len() {
         let built = build_scene(&recipe, index, reporter).map_err(|e| report::failure(e, &sources))?;
         let file = if several { scene_file(output, &built.record.name) } else { output.to_owned() };
         let bytes = to_glb(&built.scene, recipe.attribution()).map_err(|e| Failure::unable(e.to_string()))?;
         write_bytes(&file, &bytes).map_err(|e| Failure::unable(e.to_string()))?;
         failed |= !tell(&built, &sources, reporter);
+        all_reports.push(built.reports);
         reporter.say(&format!("wrote {} ({} bytes)", file.display(), bytes.len()));
     }
+    reports::write(reports_file, &all_reports)?;
     if failed { Err(Failure::said()) } else { Ok(()) }
 }
 
@@ -109,5 +115,6 @@ pub fn tell(built: &BuiltScene, sources: &SourceMap, reporter: &Reporter) -> boo
     for (what, count) in &ledger.assumptions {
         reporter.say(&format!("{:>10} {what} ({count})", "assumed"));
     }
+    reports::tell(&built.reports.totals(), reporter);
     !built.diagnostics.has_errors()
 }

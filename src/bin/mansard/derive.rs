@@ -5,7 +5,9 @@ use std::sync::Arc;
 
 use mansard::cga::program::{Program, Type};
 use mansard::cga::{self, CompileOptions};
+use mansard::dataset::reports::SceneReports;
 use mansard::geometry::Mesh;
+use mansard::interpreter::reports::table;
 use mansard::interpreter::seed::Seed;
 use mansard::interpreter::tree::{Scalar, ShapeTree};
 use mansard::interpreter::{FileAssets, Limits, StartShape, derive, json::to_json, obj::to_obj, text::to_text};
@@ -18,11 +20,13 @@ use crate::args::{DeriveArgs, DeriveFormat};
 use crate::check::rule_access;
 use crate::footprint;
 use crate::report::{self, Failure};
+use crate::reports;
 
 /// Pixels.
 const PICTURE: (u32, u32) = (640, 480);
 
 pub fn run(args: &DeriveArgs, quiet: bool) -> Result<(), Failure> {
+    reports::check(args.reports.as_ref())?;
     let mesh = footprint::parse(&args.footprint).map_err(|e| Failure::unable(format!("--footprint: {e}")))?;
     let access = rule_access(&args.rules, &args.allow)?;
     let mut sources = SourceMap::default();
@@ -40,6 +44,13 @@ pub fn run(args: &DeriveArgs, quiet: bool) -> Result<(), Failure> {
     if program.is_some() || args.format == DeriveFormat::Json {
         write(&tree, &outline, args, &access, &sources)?;
     }
+    let scene = args.rules.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let features = vec![("footprint".to_owned(), tree.reports.clone())];
+    reports::write(args.reports.as_ref(), &[SceneReports { scene, features }])?;
+    // The tree and the JSON hold the reports themselves.
+    if !quiet && !matches!(args.format, DeriveFormat::Tree | DeriveFormat::Json) {
+        eprint!("{}", table(&tree.reports));
+    }
     if tree.diagnostics.has_errors() { Err(Failure::said()) } else { Ok(()) }
 }
 
@@ -53,6 +64,7 @@ pub fn dump(file: &Path, quiet: bool) -> Result<(), Failure> {
         seed: 0,
         format: DeriveFormat::Tree,
         output: None,
+        reports: None,
         allow: Vec::new(),
     };
     run(&args, quiet)

@@ -10,6 +10,7 @@ mod plan;
 mod progress;
 mod render;
 mod report;
+mod reports;
 mod town;
 
 use std::process::ExitCode;
@@ -34,9 +35,11 @@ fn main() -> ExitCode {
     let result = match args.command {
         Command::Check { files, format, recipe } => check::run(&files, format, &recipe, args.quiet),
         Command::Derive(derive) => derive::run(&derive, args.quiet),
-        Command::Build { recipe, output, options, work } => build::run(&recipe, &output, &options, &work, &reporter),
-        Command::Render { recipe, output, views, options, work } => {
-            render::run(&recipe, &output, &views, &options, &work, &reporter)
+        Command::Build { recipe, output, reports, options, work } => {
+            build::run(&recipe, &output, reports.as_ref(), &options, &work, &reporter)
+        }
+        Command::Render { recipe, output, views, reports, options, work } => {
+            render::run(&recipe, &output, &views, reports.as_ref(), &options, &work, &reporter)
         }
         Command::Plan { recipe, format, options, work } => plan::run(&recipe, format, &options, &work, &reporter),
         Command::Dump { phase, file } => dump::run(phase, &file, args.quiet),

@@ -1,6 +1,6 @@
 //! `mansard render`: the dataset of a recipe.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use mansard::pipeline::{RenderOptions, render_dataset};
 use mansard::source::SourceMap;
@@ -9,23 +9,31 @@ use crate::args::{RecipeOptions, WorkOptions};
 use crate::build::{load, tell, use_threads};
 use crate::progress::Reporter;
 use crate::report::{self, Failure};
+use crate::reports;
 
 pub fn run(
     path: &Path,
     output: &Path,
     views: &[String],
+    reports_file: Option<&PathBuf>,
     options: &RecipeOptions,
     work: &WorkOptions,
     reporter: &Reporter,
 ) -> Result<(), Failure> {
+    reports::check(reports_file)?;
     use_threads(work)?;
     let mut sources = SourceMap::default();
     let recipe = load(path, options, &mut sources, reporter.is_quiet())?;
     let options = RenderOptions { output: output.to_owned(), views: views.to_vec() };
     let failed = std::cell::Cell::new(false);
-    let told = |built: &mansard::pipeline::BuiltScene| failed.set(failed.get() | !tell(built, &sources, reporter));
+    let all_reports = std::cell::RefCell::new(Vec::new());
+    let told = |built: &mansard::pipeline::BuiltScene| {
+        failed.set(failed.get() | !tell(built, &sources, reporter));
+        all_reports.borrow_mut().push(built.reports.clone());
+    };
     let summary =
         render_dataset(&recipe, &options, &sources, reporter, &told).map_err(|e| report::failure(e, &sources))?;
+    reports::write(reports_file, &all_reports.borrow())?;
     reporter.say(&format!(
         "wrote {} images of {} views and {} to {}",
         summary.images,

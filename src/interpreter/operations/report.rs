@@ -2,11 +2,10 @@
 
 use super::super::derivation::Derivation;
 use super::super::limits::Outcome;
-use super::super::tree::Report;
 use super::super::value::Value;
 use super::args::Args;
 
-/// Adds a value to a report; a text or bool counts with the number it converts to, or 0.
+/// Adds a value to a report (see [`super::super::reports`]).
 pub fn report(run: &mut Derivation, args: &Args) {
     let (Some(key), Some(value)) = (args.value(0), args.value(1)) else { return };
     let x = match value {
@@ -14,13 +13,7 @@ pub fn report(run: &mut Derivation, args: &Args) {
         Value::Bool(_) => value.to_float(),
         _ => Some(value.to_float()).filter(|x| x.is_finite()).unwrap_or(0.0),
     };
-    let name = key.to_text();
-    let fresh = Report { name: name.clone(), count: 0, sum: 0.0, min: f64::INFINITY, max: f64::NEG_INFINITY };
-    let report = run.reports.entry(name).or_insert(fresh);
-    report.count += 1;
-    report.sum += x;
-    report.min = report.min.min(x);
-    report.max = report.max.max(x);
+    run.reports.add(key.to_text(), value, x);
 }
 
 pub fn print(run: &mut Derivation, args: &Args) -> Outcome<()> {

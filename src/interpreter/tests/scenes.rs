@@ -75,7 +75,7 @@ fn results_leave_as_json_obj_and_text() {
     assert_eq!(json["leaves"][0]["uvs"]["0"][1], serde_json::json!([10.0, 6.0]));
     assert_eq!(
         json["reports"]["n"],
-        serde_json::json!({ "count": 1, "sum": 2.0, "average": 2.0, "min": 2.0, "max": 2.0 })
+        serde_json::json!({ "type": "float", "count": 1, "sum": 2.0, "average": 2.0, "min": 2.0, "max": 2.0 })
     );
     assert_eq!(json["prints"], serde_json::json!(["hi"]));
     let obj = to_obj(&tree);
