@@ -41,6 +41,11 @@ impl Bounds {
         self.lo.cmple(other.hi).all() && other.lo.cmple(self.hi).all()
     }
 
+    pub fn corners(&self) -> [DVec3; 8] {
+        let at = |axis: usize, high: bool| if high { self.hi[axis] } else { self.lo[axis] };
+        std::array::from_fn(|i| DVec3::new(at(0, i & 1 > 0), at(1, i & 2 > 0), at(2, i & 4 > 0)))
+    }
+
     /// Distance from a point, 0 inside.
     pub fn distance(&self, p: DVec3) -> f64 {
         (self.lo - p).max(p - self.hi).max(DVec3::ZERO).length()

@@ -20,6 +20,7 @@ pub mod plane;
 pub mod polygon;
 pub mod polygon_checks;
 pub mod predicates;
+pub mod proximity;
 pub mod rectangle;
 pub mod repair;
 pub mod roof;

@@ -8,6 +8,7 @@ use std::sync::Arc;
 
 use super::StartShape;
 use super::assets::Assets;
+use super::context::{Context, Surroundings, Survey};
 use super::leaves::Leaves;
 use super::limits::{Limits, Outcome, Stop};
 use super::outline::Outline;
@@ -32,6 +33,8 @@ pub struct Derivation<'p> {
     pub object: Frame,
     /// The initial shape's edges, where the host has data about them.
     pub outline: Option<Outline>,
+    /// What it has to do with other shapes.
+    pub context: Context<'p>,
     /// Where the initial shape has streets, as the host or `streetWidth(edge)` says.
     pub streets: Option<Streets>,
     /// Name of the rule the initial shape was derived with.
@@ -117,6 +120,7 @@ impl<'p> Derivation<'p> {
             limits,
             object: Frame::WORLD,
             outline: None,
+            context: Context::default(),
             streets: None,
             start_rule: "".into(),
             initial: None,
@@ -134,6 +138,18 @@ impl<'p> Derivation<'p> {
         }
     }
 
+    /// As a first derivation.
+    pub fn noting(mut self) -> Self {
+        self.context = Context::noting();
+        self
+    }
+
+    /// As a second derivation.
+    pub fn among(mut self, surroundings: &'p Surroundings<'p>) -> Self {
+        self.context = Context::among(surroundings);
+        self
+    }
+
     /// Derives the start shape and everything that follows from it.
     pub fn run(mut self) -> ShapeTree {
         // A stop has left its reason in the diagnostics; what was made before it stays.
@@ -146,12 +162,21 @@ impl<'p> Derivation<'p> {
         }
     }
 
+    /// Derives as well, and keeps what others may ask about.
+    pub fn survey(mut self) -> Survey {
+        let _stopped = self.work();
+        self.context.into_survey()
+    }
+
     fn work(&mut self) -> Outcome<()> {
         let Some(first) = start::prepare(self)? else { return Ok(()) };
         self.pending.push(first);
         while let Some(task) = self.pending.pop() {
             match &task.symbol {
-                Symbol::Leaf(_) => self.leaves.push(task),
+                Symbol::Leaf(_) => {
+                    self.note_leaf(&task);
+                    self.leaves.push(task);
+                }
                 Symbol::Rule(rule) => {
                     let rule = *rule;
                     self.running = Some(task.step.clone());

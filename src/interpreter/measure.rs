@@ -21,6 +21,11 @@ pub fn area(run: &Derivation, shape: &Shape, word: Option<Word>) -> f64 {
     mesh.faces.iter().filter(counted).map(|face| mesh.area(face)).sum()
 }
 
+/// Sum of the face areas of a form in world positions.
+pub fn form_area(form: &Form) -> f64 {
+    form.mesh.faces.iter().map(|face| form.mesh.area(face)).sum()
+}
+
 /// Whether some face (or edge or vertex normal) looks that way.
 pub fn is_oriented(run: &Derivation, shape: &Shape, word: Word) -> bool {
     let form = shape.world_form();

@@ -10,6 +10,7 @@ mod array;
 pub mod assets;
 mod attribute;
 mod choice;
+pub mod context;
 mod derivation;
 mod dynamic_import;
 mod environment;
@@ -45,6 +46,7 @@ mod value;
 use std::sync::Arc;
 
 pub use assets::{Assets, FileAssets, NoAssets};
+use context::{Surroundings, Survey};
 use derivation::Derivation;
 pub use host::HostData;
 pub use limits::Limits;
@@ -85,9 +87,30 @@ impl StartShape {
 }
 
 /// Derives one start shape. Never panics and never fails: what went wrong is in the tree's diagnostics, and the leaves
-/// made before are kept.
+/// made before are kept. Queries see this start shape only; [`Batch`](context::Batch) derives several that see each other.
 pub fn derive(program: &Program, start: &StartShape, assets: &dyn Assets, limits: &Limits) -> ShapeTree {
-    Derivation::new(program, start, assets, limits).run()
+    if !program.needs().asks() {
+        return Derivation::new(program, start, assets, limits).run();
+    }
+    let own = survey(program, start, assets, limits);
+    let surroundings = Surroundings { own: Some(&own), ..Surroundings::default() };
+    derive_among(program, start, assets, limits, &surroundings)
+}
+
+/// The first derivation: queries have their defaults, and only what others may ask about is kept (reference 6.8).
+pub fn survey(program: &Program, start: &StartShape, assets: &dyn Assets, limits: &Limits) -> Survey {
+    Derivation::new(program, start, assets, limits).noting().survey()
+}
+
+/// The second derivation, its queries answered from first ones.
+pub fn derive_among(
+    program: &Program,
+    start: &StartShape,
+    assets: &dyn Assets,
+    limits: &Limits,
+    surroundings: &Surroundings,
+) -> ShapeTree {
+    Derivation::new(program, start, assets, limits).among(surroundings).run()
 }
 
 #[cfg(test)]

@@ -11,6 +11,7 @@ use std::sync::Arc;
 use glam::{DMat3, DVec3};
 
 use super::appearance::Appearance;
+use super::context::Trail;
 use super::form::Form;
 use super::placement::{Frame, euler};
 use super::projection::Projection;
@@ -49,6 +50,8 @@ pub struct Shape {
     pub attributes: Arc<Vec<Value>>,
     pub lineage: Lineage,
     pub seed: Seed,
+    /// The shapes it was made from, kept only where a query may ask.
+    pub trail: Option<Arc<Trail>>,
     /// The number `set(seedian, …)` gave, for reading it back.
     pub seedian: Option<f64>,
     pub trim_horizontal: bool,

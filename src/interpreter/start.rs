@@ -119,6 +119,7 @@ fn initial_shape(mesh: Mesh, run: &Derivation) -> Shape {
         attributes: Arc::new(vec![Value::Float(0.0); run.program.attributes().len()]),
         lineage,
         seed: run.start.seed,
+        trail: None,
         seedian: None,
         trim_horizontal: false,
         trim_vertical: true,

@@ -37,6 +37,7 @@ impl<'p> Derivation<'p> {
     pub fn derive_rule(&mut self, id: RuleId, task: Task) -> Outcome<Vec<Task>> {
         let rule = self.program.rule(id);
         let Task { mut shape, args, step, .. } = task;
+        self.begin_trail(&mut shape);
         let mut body = Body { slots: args, children: Vec::new(), step, span: rule.span };
         for (i, local) in rule.locals.iter().enumerate() {
             let value = self.eval(local, &Env::new(&shape, &body.slots, GROUP + i as u64))?;
@@ -97,6 +98,7 @@ impl<'p> Derivation<'p> {
         reference: &Scope,
         body: &mut Body,
     ) -> Outcome<()> {
+        self.note_before(item, shape);
         match item {
             Item::Operation { operation, args, span } => {
                 let args = self.eval_args(args, &Env::new(shape, &body.slots, place))?;
@@ -131,6 +133,7 @@ impl<'p> Derivation<'p> {
             Item::Group(inner) => {
                 let mut copy = shape.clone();
                 copy.seed = shape.seed.part(GROUP + place);
+                self.begin_trail(&mut copy);
                 let reference = copy.scope;
                 self.execute(inner, &mut copy, &reference, body)
             }
@@ -147,6 +150,7 @@ impl<'p> Derivation<'p> {
         body.children.reserve(pieces.len());
         for (number, (mut piece, successor)) in pieces.into_iter().enumerate() {
             piece.seed = seed.part(number as u64);
+            self.begin_trail(&mut piece);
             let reference = piece.scope;
             self.count_vertices(piece.form.mesh.positions.len(), body.span)?;
             self.execute(successor, &mut piece, &reference, body)?;

@@ -1,6 +1,7 @@
 //! Rule texts derived end to end: the worked micro-tests of reference 10 and the facts of the compatibility notes.
 
 mod components;
+mod context;
 mod edges;
 mod expressions;
 mod files;

@@ -3,7 +3,7 @@
 //! To support a form in the interpreter, change its row's `NotYet` to `Evaluated`.
 
 use super::Status;
-use super::Status::{Evaluated, NotYet};
+use super::Status::Evaluated;
 
 macro_rules! forms {
     ($($variant:ident $text:literal $status:ident)*) => {

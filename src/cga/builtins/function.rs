@@ -4,7 +4,7 @@
 //! its row's `NotYet` to `Evaluated`.
 
 use super::Status;
-use super::Status::{Evaluated, NotYet};
+use super::Status::Evaluated;
 
 macro_rules! functions {
     ($($variant:ident $name:literal $status:ident [$($signature:literal),*])*) => {
@@ -127,12 +127,12 @@ functions! {
     AssetsSortSize "assetsSortSize" Evaluated ["S {x y z xy xz yz xyz} F -> S", "S[] {x y z xy xz yz xyz} F -> S[]"]
     ImageInfo "imageInfo" Evaluated ["S {sx sy} -> F"]
     ImagesSortRatio "imagesSortRatio" Evaluated ["S {xy xz yx yz zx zy} -> S", "S[] {xy xz yx yz zx zy} -> S[]"]
-    Inside "inside" NotYet ["{intra inter all}? S? -> B"]
-    Overlaps "overlaps" NotYet ["{intra inter all}? S? -> B"]
-    Touches "touches" NotYet ["{intra inter all}? S? -> B"]
-    MinimumDistance "minimumDistance" NotYet ["{intra inter all} S -> F"]
-    ContextCount "contextCount" NotYet ["{intra inter all} S -> F"]
-    ContextCompare "contextCompare" NotYet [
+    Inside "inside" Evaluated ["{intra inter all}? S? -> B"]
+    Overlaps "overlaps" Evaluated ["{intra inter all}? S? -> B"]
+    Touches "touches" Evaluated ["{intra inter all}? S? -> B"]
+    MinimumDistance "minimumDistance" Evaluated ["{intra inter all} S -> F"]
+    ContextCount "contextCount" Evaluated ["{intra inter all} S -> F"]
+    ContextCompare "contextCompare" Evaluated [
         "{intra inter all} S {world.northernmost world.southernmost world.easternmost world.westernmost world.highest world.lowest area.largest area.smallest} -> F"
     ]
     EdgeAttrGetFloat "edgeAttr.getFloat" Evaluated ["S -> F"]

@@ -67,7 +67,7 @@ operations! {
     InnerRectangle "innerRectangle" Evaluated ["{scope edge}"]
     InsertAlongUv "insertAlongUV" NotYet ["F S F {scope.y vertex.normal}? {alignPosition keepPosition}?"]
     Intersect "intersect" NotYet [""]
-    Label "label" NotYet ["S"]
+    Label "label" Evaluated ["S"]
     Mirror "mirror" Evaluated ["B B B"]
     MirrorScope "mirrorScope" Evaluated ["B B B"]
     Modify "modify" NotYet ["{f e fe v fv g m h} {zUp noAlign}?"]

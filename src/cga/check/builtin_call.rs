@@ -68,6 +68,7 @@ impl Body<'_, '_> {
             self.tables.observes_tags.set(true);
         }
         let (args, result) = self.overload(Builtin::Function(function), args, span);
+        self.tables.needs.set(self.tables.needs.get().with_call(function, &args));
         let site = function.draws().then(|| self.draw());
         Expr { kind: ExprKind::Builtin { function, args, site }, value: result, span }
     }
@@ -75,7 +76,11 @@ impl Body<'_, '_> {
     /// Chooses among overloads; gives the arguments and the result type.
     pub fn overload(&mut self, builtin: Builtin, args: &[Argument], span: Span) -> (Vec<Arg>, Option<Type>) {
         let signatures = builtin.overloads();
-        let given: Vec<Given<'_>> = args.iter().map(|arg| self.given(arg)).collect();
+        let takes = |i: usize, word: Word| {
+            signatures.iter().filter_map(|s| s.parameters.get(i)).any(|p| p.words.contains(&word))
+        };
+        let given: Vec<Given<'_>> =
+            args.iter().enumerate().map(|(i, arg)| self.given(arg, |word| takes(i, word))).collect();
         let fits = |s: &&Signature| (s.arity().0..=s.arity().1).contains(&given.len());
         let mut of_length = signatures.iter().filter(fits).peekable();
         if of_length.peek().is_none() {
@@ -108,7 +113,8 @@ impl Body<'_, '_> {
         (args, chosen.result.filter(|_| certain))
     }
 
-    fn given<'e>(&mut self, written: &'e Argument) -> Given<'e> {
+    /// `takes` tells whether some overload takes a keyword here.
+    fn given<'e>(&mut self, written: &'e Argument, takes: impl Fn(Word) -> bool) -> Given<'e> {
         let name = bare_name(&written.value);
         let word = name.and_then(|n| Word::from_text(&n.text));
         let computed = computed_word(&written.value).map(|text| {
@@ -116,9 +122,9 @@ impl Body<'_, '_> {
             self.require(&text, Type::String);
             text
         });
-        // A word that is also a built-in function, such as `inside`, is the word.
+        // A word that is also a built-in function, such as `inside`, is the word where one is taken.
         let known = match name {
-            Some(n) => self.is_own_value(&n.text) || word.is_none() && self.is_builtin_value(&n.text),
+            Some(n) => self.is_own_value(&n.text) || word.is_none_or(|w| !takes(w)) && self.is_builtin_value(&n.text),
             None => computed.is_none(),
         };
         let value = known.then(|| self.expression(&written.value));

@@ -199,6 +199,7 @@ impl Body<'_, '_> {
     /// A word in a selector.
     fn selector_word(&mut self, word: Word, span: Span) -> Expr {
         use Word as W;
+        self.tables.needs.set(self.tables.needs.get().with_word(word));
         let form = match word {
             W::StreetFront | W::StreetBack | W::StreetLeft | W::StreetRight | W::StreetSide => {
                 Some(Form::StreetSelector)

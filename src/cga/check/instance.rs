@@ -10,7 +10,7 @@ use super::load::LoadedFile;
 use super::style::InForce;
 use crate::cga::ast::{self, AnnotationValue, DeclarationKind, Definition, DefinitionKind, Import, Modifier, Text};
 use crate::cga::codes;
-use crate::cga::program::{Annotations, AttributeId, FunctionId, RuleId};
+use crate::cga::program::{Annotations, AttributeId, FunctionId, Needs, RuleId};
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::source::Span;
 
@@ -97,6 +97,8 @@ pub struct Tables<'a> {
     pub diagnostics: Diagnostics,
     /// See [`crate::cga::program::Program::observes_tags`]; set while bodies are resolved.
     pub observes_tags: Cell<bool>,
+    /// See [`crate::cga::program::Program::needs`]; added to while bodies are resolved.
+    pub needs: Cell<Needs>,
 }
 
 impl<'a> Tables<'a> {
@@ -112,6 +114,7 @@ impl<'a> Tables<'a> {
             called_dynamically: BTreeSet::new(),
             diagnostics: Diagnostics::default(),
             observes_tags: Cell::new(false),
+            needs: Cell::default(),
         }
     }
 

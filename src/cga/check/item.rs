@@ -146,6 +146,7 @@ impl Body<'_, '_> {
         if operation.observes_tags() {
             self.tables.observes_tags.set(true);
         }
+        self.tables.needs.set(self.tables.needs.get().with_operation(operation));
         self.overload(Builtin::Operation(operation), given, span).0
     }
 

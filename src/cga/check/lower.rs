@@ -159,6 +159,7 @@ fn bodies(tables: &Tables<'_>, types: &Types, mut diagnostics: Option<&mut Diagn
         import_attributes: Vec::new(),
         files,
         observes_tags,
+        needs: tables.needs.get(),
     }
 }
 
@@ -305,7 +306,10 @@ impl<'c, 'a> Body<'c, 'a> {
         let Some(parameters) = &definition.parameters else { return };
         let span = definition.name.span;
         match (&*definition.name.text, parameters.len()) {
-            ("streetWidth", 1) => self.form(crate::cga::builtins::Form::StreetWidth, span),
+            ("streetWidth", 1) => {
+                self.form(crate::cga::builtins::Form::StreetWidth, span);
+                self.tables.needs.set(program::Needs { edges: true, ..self.tables.needs.get() });
+            }
             (_, 0) => {}
             (name, _) => {
                 let message =

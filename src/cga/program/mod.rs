@@ -5,6 +5,7 @@
 //! instance with its own rules and attributes, named with its prefix (`lib.Wall`). A style is chosen at compile time.
 
 mod expression;
+mod needs;
 mod successor;
 
 use std::path::{Path, PathBuf};
@@ -13,6 +14,7 @@ use std::sync::Arc;
 pub use expression::{
     Arg, BinaryOperator, Component, Expr, ExprKind, ExprSelector, Prefix, SelectorOperator, Type, UnaryOperator,
 };
+pub use needs::Needs;
 pub use successor::{
     Axis, BooleanOperator, InlineMode, Item, PerimeterItem, SectionPattern, Selector, Sequence, SetTarget, SplitBlock,
     SplitItem, SplitKind, Successor,
@@ -44,6 +46,7 @@ pub struct Program {
     pub(in crate::cga) import_attributes: Vec<Vec<AttributeId>>,
     pub(in crate::cga) files: Vec<RuleFile>,
     pub(in crate::cga) observes_tags: bool,
+    pub(in crate::cga) needs: Needs,
 }
 
 /// One text of the program; asset paths written in it are relative to `folder`.
@@ -205,6 +208,11 @@ impl Program {
     /// The attribute a host names.
     pub fn attribute_named(&self, name: &str) -> Option<AttributeId> {
         self.attributes.iter().position(|a| &*a.name == name && !a.is_const).map(|i| AttributeId(i as u32))
+    }
+
+    /// What it asks of other start shapes and of its host.
+    pub fn needs(&self) -> Needs {
+        self.needs
     }
 
     /// Whether anything in the program can tell if a component has a tag. Where nothing can, none are made.

@@ -4,6 +4,7 @@
 
 mod array;
 mod color;
+mod context;
 mod convert;
 mod edge;
 mod file_order;
@@ -102,6 +103,7 @@ pub fn call(
             let value = math::call(other, &input)
                 .or_else(|| geometry::call(run, other, &input, env.shape))
                 .or_else(|| tags::call(other, &input, env))
+                .or_else(|| context::call(run, other, &input, env.shape))
                 .or_else(|| edge::call(run, other, &input, env.shape))
                 .or_else(|| color::call(other, &input))
                 .or_else(|| array::call(other, &input))

@@ -19,6 +19,7 @@ mod footprint;
 mod inner_rectangle;
 mod insert;
 mod insert_cleanup;
+mod label;
 mod mirror;
 mod normals;
 mod offset;
@@ -137,6 +138,7 @@ pub fn apply(
         O::SoftenNormals => normals::soften_below(run, &args, shape),
         O::Tag => tag::tag(run, &args, shape),
         O::DeleteTags => tag::delete(&args, shape),
+        O::Label => label::apply(run, &args, shape),
         O::Report => report::report(run, &args),
         O::Print => report::print(run, &args)?,
         other => not_evaluated(run, other.name(), span),

@@ -1,0 +1,103 @@
+//! Many start shapes that see each other. In: their programs and meshes. Out: which of them need a first derivation, and
+//! the second derivation of each; a host may run either in any order and on any number of threads.
+
+use super::super::assets::Assets;
+use super::super::limits::Limits;
+use super::super::tree::ShapeTree;
+use super::super::{StartShape, derive, derive_among, survey};
+use super::{Surroundings, Survey};
+use crate::cga::program::Program;
+use crate::geometry::box_tree::{Bounds, BoxTree};
+
+/// Worlds a start shape is in, by bits: a scene before a change and after it are two. Who is in none of the worlds
+/// another one sees is never met.
+pub type Worlds = u8;
+
+/// One start shape of a batch.
+#[derive(Clone, Debug)]
+pub struct Lot<'a> {
+    pub program: &'a Program,
+    pub start: StartShape,
+    pub is_in: Worlds,
+    pub sees: Worlds,
+}
+
+/// Start shapes whose boxes are within this of each other, seen from above, meet in occlusion queries, metres
+/// (reference 6.8).
+pub const REACH: f64 = 1.0;
+
+/// Lots with who is near whom.
+pub struct Batch<'a> {
+    lots: &'a [Lot<'a>],
+    assets: &'a dyn Assets,
+    limits: &'a Limits,
+    /// By lot: those within reach, for lots that ask.
+    near: Vec<Vec<u32>>,
+    surveyed: Vec<bool>,
+}
+
+impl<'a> Batch<'a> {
+    pub fn new(lots: &'a [Lot<'a>], assets: &'a dyn Assets, limits: &'a Limits) -> Self {
+        let mut batch = Batch { lots, assets, limits, near: vec![Vec::new(); lots.len()], surveyed: Vec::new() };
+        batch.surveyed = lots.iter().map(|lot| lot.program.needs().own).collect();
+        if lots.iter().any(|lot| lot.program.needs().near) {
+            batch.find_neighbours();
+        }
+        if lots.iter().any(|lot| lot.program.needs().far) {
+            for (surveyed, lot) in batch.surveyed.iter_mut().zip(lots) {
+                *surveyed |= lot.program.needs().labels;
+            }
+        }
+        batch
+    }
+
+    fn find_neighbours(&mut self) {
+        let nowhere = Bounds { lo: glam::DVec3::INFINITY, hi: glam::DVec3::NEG_INFINITY };
+        let level = |lot: &Lot| match Bounds::around(lot.start.mesh.positions.iter().map(|p| p.with_y(0.0))) {
+            Some(bounds) => bounds,
+            None => nowhere,
+        };
+        let boxes: Vec<Bounds> = self.lots.iter().map(level).collect();
+        let tree = BoxTree::new(boxes.clone());
+        for (i, lot) in self.lots.iter().enumerate().filter(|(_, lot)| lot.program.needs().near) {
+            let around = tree.touching(&boxes[i].grown(REACH)).into_iter();
+            let near = around.filter(|&j| j != i && self.lots[j].is_in & lot.sees != 0);
+            self.near[i] = near.map(|j| j as u32).collect();
+        }
+        for &j in self.near.iter().flatten() {
+            self.surveyed[j as usize] = true;
+        }
+    }
+
+    /// Whether the lot needs a first derivation.
+    pub fn needs_survey(&self, lot: usize) -> bool {
+        self.surveyed[lot]
+    }
+
+    /// The first derivation, where it is needed.
+    pub fn survey(&self, lot: usize) -> Option<Survey> {
+        let Lot { program, start, .. } = &self.lots[lot];
+        self.needs_survey(lot).then(|| survey(program, start, self.assets, self.limits))
+    }
+
+    /// The second derivation, or the only one. `surveys` holds [`Batch::survey`] of every lot.
+    pub fn derive(&self, lot: usize, surveys: &[Option<Survey>]) -> ShapeTree {
+        let Lot { program, start, sees, .. } = &self.lots[lot];
+        let needs = program.needs();
+        if !needs.asks() {
+            return derive(program, start, self.assets, self.limits);
+        }
+        let near = self.near[lot].iter().filter_map(|&j| surveys[j as usize].as_ref()).collect();
+        let others = (0..self.lots.len()).filter(|&j| needs.far && j != lot && self.lots[j].is_in & sees != 0);
+        let labelled = others.filter(|&j| self.lots[j].program.needs().labels);
+        let labelled = labelled.filter_map(|j| surveys[j].as_ref()).collect();
+        let surroundings = Surroundings { own: surveys[lot].as_ref(), near, labelled };
+        derive_among(program, start, self.assets, self.limits, &surroundings)
+    }
+
+    /// Everything on this thread.
+    pub fn derive_all(&self) -> Vec<ShapeTree> {
+        let surveys: Vec<Option<Survey>> = (0..self.lots.len()).map(|i| self.survey(i)).collect();
+        (0..self.lots.len()).map(|i| self.derive(i, &surveys)).collect()
+    }
+}
