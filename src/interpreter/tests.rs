@@ -7,6 +7,7 @@ mod expressions;
 mod files;
 mod flat;
 mod frames;
+mod groups;
 mod imports;
 mod limits;
 mod normals;

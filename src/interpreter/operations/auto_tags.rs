@@ -91,6 +91,25 @@ pub fn walls(source: &Form, form: &mut Form) {
     *form.tags_mut() = tags;
 }
 
+/// A pyramid over the source's first face: the bottom first, then a side per edge; vertices are the face's outer
+/// corners, then the apex.
+pub fn taper(program: &Program, source: &Form, form: &mut Form) {
+    let corners = &source.mesh.faces[0].outer;
+    let apex = corners.len() as u32;
+    if let Some(old) = source.tags().filter(|tags| !tags.is_empty()) {
+        let tags = form.tags_mut();
+        for (i, &v) in corners.iter().enumerate() {
+            let next = corners[(i + 1) % corners.len()];
+            tags.set_face(i + 1, old.edge([v, next]).clone());
+            tags.extend_edge([i as u32, apex], old.vertex(v));
+        }
+    }
+    if program.observes_tags() {
+        let name = |face: u32| Some(if face == 0 { "taper.bottom" } else { "taper.side" });
+        form.auto_tag_faces("taper", (0..=apex).map(name));
+    }
+}
+
 /// How a roof's vertical faces are named.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sides {

@@ -8,6 +8,7 @@ use glam::{DVec2, DVec3};
 use super::super::derivation::Derivation;
 use super::super::shape::Shape;
 use super::args::Args;
+use super::auto_tags;
 use super::extrude::replace_upright;
 use super::plan_faces::texture_map;
 use crate::geometry::extrude::LEAST_DISTANCE;
@@ -57,6 +58,7 @@ pub fn apply(run: &mut Derivation, args: &Args, shape: &mut Shape) {
     }
     mesh.faces.push(bottom);
     mesh.faces.extend(sides);
-    let form = source.derived(mesh, (0..=n).map(|_| Some(0)));
+    let mut form = source.derived(mesh, (0..=n).map(|_| Some(0)));
+    auto_tags::taper(run.program, &source, &mut form);
     replace_upright(shape, form, frame.normal, height < 0.0);
 }

@@ -37,6 +37,9 @@ fn operations_name_what_they_make() {
     for (query, faces) in [("roof.bottom", 1), ("roof.top", 1), ("roof.side.outer", 3), ("roof.side.inner", 0)] {
         assert_eq!(count("Lot --> roofShed(30)", query), faces, "{query}");
     }
+    for (query, faces) in [("taper.bottom", 1), ("taper.side", 4), ("roof", 0)] {
+        assert_eq!(count("Lot --> taper(3)", query), faces, "{query}");
+    }
     assert_eq!(count("Lot --> roofHip(30)", "roof.top"), 4);
     assert_eq!(count("Lot --> roofPyramid(30)", "roof.top"), 4);
     assert_eq!(count("Lot --> setback(1) { all = R }\nR --> extrude(3)", "extrude.side.inner"), 4);
@@ -60,6 +63,16 @@ Wall --> print(geometry.tags("rim", faces) + " " + geometry.tags("rim", edges) +
     let tree = run(rules, SMALL);
     assert_eq!((count(&tree, "X"), tree.prints.len()), (0, 4));
     assert_eq!(tree.prints[0], "(1)[rim] (1)[rim] (1)[corner] (1)[corner]");
+}
+
+#[test]
+fn tapers_pass_tags_on() {
+    let rules = r#"Lot --> tag("whole") tag("rim", edges) tag("corner", vertices) taper(3) comp(f) { isTagged("whole") : Base | all : Side }
+Base --> print(geometry.tags) NIL
+Side --> print(str(geometry.tags("?", faces)) + geometry.tags("?", edges)) NIL"#;
+    let prints = prints(rules);
+    assert_eq!(prints[0], "(4)[corner,rim,taper.bottom,whole]");
+    assert_eq!(prints[1..], ["(2)[rim,taper.side](2)[corner,rim]"; 4]);
 }
 
 #[test]
