@@ -1,5 +1,6 @@
 //! Rule texts derived end to end: the worked micro-tests of reference 10 and the facts of the compatibility notes.
 
+mod along_uv;
 mod components;
 mod context;
 mod edges;

@@ -65,7 +65,7 @@ operations! {
     Inline "inline" NotYet ["{append unify recompose}?"]
     InnerRect "innerRect" Evaluated [""]
     InnerRectangle "innerRectangle" Evaluated ["{scope edge}"]
-    InsertAlongUv "insertAlongUV" NotYet ["F S F {scope.y vertex.normal}? {alignPosition keepPosition}?"]
+    InsertAlongUv "insertAlongUV" Evaluated ["F S F {scope.y vertex.normal}? {alignPosition keepPosition}?"]
     Intersect "intersect" NotYet [""]
     Label "label" Evaluated ["S"]
     Mirror "mirror" Evaluated ["B B B"]

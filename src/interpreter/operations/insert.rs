@@ -18,12 +18,7 @@ use super::primitive::unit_cube;
 use crate::cga::builtins::Word;
 
 pub fn apply(run: &mut Derivation, args: &Args, shape: &mut Shape) -> Outcome<()> {
-    let path: Arc<str> = args.value(0).map_or_else(|| "".into(), Value::to_text);
-    let loaded = files::geometry(run, &path, args.span);
-    let asset = loaded.unwrap_or_else(|error| {
-        run.warn("cga::missing-asset", args.span, || format!("{error}, a box stands in"));
-        Arc::new(Asset::new(unit_cube()))
-    });
+    let asset = load(run, args, 0);
     run.allow_vertices(asset.form.mesh.positions.len(), args.span)?;
     let words: Vec<Word> = (1..args.len()).filter_map(|i| args.word(i)).collect();
     let clean = if words.contains(&Word::NoCleanup) { None } else { insert_cleanup::cleaned(&asset.form) };
@@ -37,6 +32,16 @@ pub fn apply(run: &mut Derivation, args: &Args, shape: &mut Shape) -> Outcome<()
     }
     fit(shape, &upright);
     Ok(())
+}
+
+/// The asset whose path is argument `i`; a box, with a warning, if it cannot be had.
+pub fn load(run: &mut Derivation, args: &Args, i: usize) -> Arc<Asset> {
+    let path: Arc<str> = args.value(i).map_or_else(|| "".into(), Value::to_text);
+    let loaded = files::geometry(run, &path, args.span);
+    loaded.unwrap_or_else(|error| {
+        run.warn("cga::missing-asset", args.span, || format!("{error}, a box stands in"));
+        Arc::new(Asset::new(unit_cube()))
+    })
 }
 
 /// The asset turned -90 degrees about x.

@@ -18,6 +18,7 @@ mod extrude;
 mod footprint;
 mod inner_rectangle;
 mod insert;
+mod insert_along_uv;
 mod insert_cleanup;
 mod label;
 mod mirror;
@@ -116,6 +117,7 @@ pub fn apply(
         O::PrimitiveCylinder => primitive::cylinder(run, &args, shape),
         O::PrimitiveCone => primitive::cone(run, &args, shape),
         O::PrimitiveSphere => primitive::sphere(run, &args, shape),
+        O::InsertAlongUv => insert_along_uv::apply(run, &args, shape)?,
         O::Insert => insert::apply(run, &args, shape)?,
         O::ResetGeometry => reset_geometry::apply(run, shape),
         O::Trim => trim::apply(shape),
