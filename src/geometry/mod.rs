@@ -3,6 +3,7 @@
 //! In: rings and face lists in f64 metres. Out: checked polygons, skeletons, roofs, cuts, meshes.
 //! Plan coordinates are (x, y) with y up the page (north), counter-clockwise outlines; space is (x, y, z) with y up.
 
+pub mod body;
 pub mod boolean;
 pub mod box_tree;
 pub mod cut;
@@ -25,6 +26,7 @@ pub mod rectangle;
 pub mod repair;
 pub mod roof;
 pub mod skeleton;
+pub mod solid;
 pub mod transform;
 pub mod triangulate;
 

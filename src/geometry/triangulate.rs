@@ -66,7 +66,7 @@ pub(super) fn dropped_axis(normal: DVec3) -> Option<fn(DVec3) -> DVec2> {
     })
 }
 
-fn triangulate_rings(rings: &[&[DVec2]]) -> Vec<[u32; 3]> {
+pub(super) fn triangulate_rings(rings: &[&[DVec2]]) -> Vec<[u32; 3]> {
     let [outer, holes @ ..] = rings else { return Vec::new() };
     if outer.len() < 3 || rings.iter().any(|r| r.iter().any(|p| !p.is_finite())) {
         return Vec::new();

@@ -62,10 +62,10 @@ fn unmatched(runs: impl Iterator<Item = (u32, u32, usize)>) -> Vec<CapEdge> {
 
 /// A run of an edge and the source face it belongs to, or (turned over) lies beside.
 #[derive(Clone, Copy)]
-struct CapEdge {
-    from: u32,
-    to: u32,
-    face: usize,
+pub(in crate::geometry) struct CapEdge {
+    pub from: u32,
+    pub to: u32,
+    pub face: usize,
 }
 
 /// The caps of the faces on one side, those beside the earliest faces first.
@@ -90,7 +90,7 @@ pub(super) fn caps(
 
 /// Chains edges to loops; where several leave a vertex the leftmost turn is taken, so loops that touch stay apart.
 /// An edge without a successor is dropped (the component was not closed there).
-fn loops(edges: Vec<CapEdge>, plan: impl Fn(u32) -> DVec2) -> Vec<Vec<u32>> {
+pub(in crate::geometry) fn loops(edges: Vec<CapEdge>, plan: impl Fn(u32) -> DVec2) -> Vec<Vec<u32>> {
     let mut leaving: BTreeMap<u32, Vec<CapEdge>> = BTreeMap::new();
     edges.iter().for_each(|&e| leaving.entry(e.from).or_default().push(e));
     let mut by_face = edges;
@@ -124,7 +124,7 @@ fn left_turn(from: DVec2, to: DVec2) -> f64 {
 }
 
 /// Counter-clockwise loops are outlines, the others holes of the smallest outline around them.
-fn nest(loops: Vec<Vec<u32>>, plan: impl Fn(u32) -> DVec2) -> Vec<Face> {
+pub(in crate::geometry) fn nest(loops: Vec<Vec<u32>>, plan: impl Fn(u32) -> DVec2) -> Vec<Face> {
     let flat = |l: &[u32]| -> Vec<DVec2> { l.iter().map(|&v| plan(v)).collect() };
     let (mut caps, mut outlines, mut holes) = (Vec::new(), Vec::new(), Vec::new());
     for ring in loops {

@@ -5,7 +5,7 @@
 //! edge if that survives, otherwise it starts with the first surviving one (cga-reference C.3). Cut points are computed
 //! once per edge, so the pieces meet bitwise. Texture coordinates are interpolated; caps have none.
 
-mod cap;
+pub(super) mod cap;
 mod face;
 mod levels;
 mod sheet;
