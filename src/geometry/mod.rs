@@ -6,7 +6,9 @@
 pub mod body;
 pub mod boolean;
 pub mod box_tree;
+pub mod convex_parts;
 pub mod cut;
+pub mod envelope;
 pub mod extrude;
 pub mod grid;
 #[cfg(test)]
@@ -25,6 +27,7 @@ pub mod proximity;
 pub mod rectangle;
 pub mod repair;
 pub mod roof;
+pub mod simplify;
 pub mod skeleton;
 pub mod solid;
 pub mod transform;

@@ -4,6 +4,7 @@ mod along_uv;
 mod components;
 mod context;
 mod edges;
+mod editing;
 mod expressions;
 mod files;
 mod flat;

@@ -45,12 +45,12 @@ operations! {
     CleanupGeometry "cleanupGeometry" Evaluated ["{vertices edges faces all} F"]
     Color "color" Evaluated ["S", "F F F F?"]
     Comp "comp" Evaluated ["{f e fe v fv g m h} {zUp noAlign}?"]
-    Convexify "convexify" NotYet ["F?"]
+    Convexify "convexify" Evaluated ["F?"]
     CopyUv "copyUV" Evaluated ["F F"]
     DeleteHoles "deleteHoles" Evaluated [""]
     DeleteTags "deleteTags" Evaluated ["S? {all faces edges vertices}?"]
     DeleteUv "deleteUV" Evaluated ["F"]
-    Envelope "envelope" NotYet [
+    Envelope "envelope" Evaluated [
         "{normal world.up} F F F", "{normal world.up} F F F F F", "{normal world.up} F F F F F F F",
         "{normal world.up} F F F F F F F F F", "{normal world.up} F F[] F[]",
         "F F F", "F F F F F", "F F F F F F F", "F F F F F F F F F"
@@ -82,8 +82,8 @@ operations! {
     Print "print" Evaluated ["X"]
     ProjectUv "projectUV" Evaluated ["F"]
     R "r" Evaluated ["{scopeOrigin scopeCenter} F F F", "F F F"]
-    Rectify "rectify" NotYet ["F"]
-    ReduceGeometry "reduceGeometry" NotYet ["F"]
+    Rectify "rectify" Evaluated ["F"]
+    ReduceGeometry "reduceGeometry" Evaluated ["F"]
     Report "report" Evaluated ["S X"]
     ResetGeometry "resetGeometry" Evaluated [""]
     ResetMaterial "resetMaterial" Evaluated ["{shape geometry all}?"]

@@ -79,7 +79,7 @@ fn merge_vertices(mesh: &mut Mesh, distance: f64) {
 }
 
 /// Removes the corners of every loop for which the test holds, with their texture coordinates.
-fn remove_corners(face: &mut Face, test: impl Fn(&[u32], usize) -> bool) {
+pub fn remove_corners(face: &mut Face, test: impl Fn(&[u32], usize) -> bool) {
     let mut keep = Vec::new();
     for ring in face.loops() {
         keep.extend((0..ring.len()).map(|i| !test(ring, i)));

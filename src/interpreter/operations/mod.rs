@@ -13,7 +13,9 @@ mod cleanup;
 pub mod comp;
 mod component_list;
 mod components;
+mod convexify;
 mod delete_holes;
+mod envelope;
 mod extrude;
 mod footprint;
 mod inner_rectangle;
@@ -27,6 +29,8 @@ mod offset;
 mod perimeter;
 mod plan_faces;
 mod primitive;
+mod rectify;
+mod reduce;
 mod regions;
 mod report;
 mod reset_geometry;
@@ -102,6 +106,10 @@ pub fn apply(
         O::AlignScopeToGeometry => align_to_geometry::apply(run, &args, shape),
         O::AlignScopeToGeometryBBox => align_to_box::apply(run, &args, shape),
         O::InnerRect => inner_rectangle::replace(run, &args, shape),
+        O::Envelope => envelope::apply(run, &args, shape),
+        O::Convexify => convexify::apply(run, &args, shape),
+        O::Rectify => rectify::apply(run, &args, shape),
+        O::ReduceGeometry => reduce::apply(run, &args, shape),
         O::Footprint => footprint::apply(run, &args, shape),
         O::Taper => taper::apply(run, &args, shape),
         O::Extrude => extrude::apply(run, &args, shape)?,
