@@ -1,8 +1,9 @@
 //! One scene of a recipe, from files to meshes with labels.
 
-use super::derivation::{assign, derive_features};
+use super::derivation::derive_features;
 use super::error::PipelineError;
 use super::place::{Place, place};
+use super::preparation::assign;
 use super::progress::Progress;
 use super::recipe::Recipe;
 use super::record::{asset_files, geometry_hash, report_records};

@@ -2,32 +2,26 @@
 //! has something to show, the ledger, the reports and the mistakes met while deriving. Parallel; order and results do not
 //! depend on the number of threads.
 
-use std::collections::BTreeMap;
-use std::sync::Arc;
-
-use glam::DVec2;
 use rayon::prelude::*;
 
-use super::lot::{Lot, Relief, relief};
+use super::lot::Lot;
+use super::neighbours::{derive_all, worlds};
 use super::place::Place;
+use super::preparation::{Preparation, Prepared, State, road_ends};
 use super::progress::Progress;
 use super::recipe::Recipe;
 use crate::diagnostics::{Diagnostics, Severity};
-use crate::geodata::feature::{Feature, Outline};
-use crate::geodata::features::ribbon::{Cap, caps};
 use crate::geodata::ledger::{Ledger, Outcome};
-use crate::geodata::tags::{self, Defaults, TagValue};
 use crate::geodata::terrain::Terrain;
 use crate::interpreter::assets::Assets;
+use crate::interpreter::context::Member;
 use crate::interpreter::limits::Limits;
 use crate::interpreter::reports::Report;
-use crate::interpreter::seed::Seed;
-use crate::interpreter::tree::{Scalar, ShapeTree};
-use crate::interpreter::{HostData, StartShape, derive};
+use crate::interpreter::tree::ShapeTree;
 use crate::plan::change::Changed;
-use crate::scene::Presence;
 use crate::scene::assemble::{FeatureParts, StateParts};
-use crate::spec::render_spec::{AttributeValue, DrawnValue, LevelEffect, RuleAssignment, SceneSpec, ValueSpec};
+use crate::scene::parts::Parts;
+use crate::spec::render_spec::SceneSpec;
 
 /// Warnings after which a feature is there in a simpler form than its rules asked for.
 const FALLBACKS: &[&str] =
@@ -47,32 +41,12 @@ pub struct Derivation {
     pub prints: Vec<String>,
 }
 
-/// One feature's share of it.
+/// What one state of a feature gives.
 struct Derived {
-    outcome: Outcome,
-    states: Vec<StateParts>,
-    ledger: Ledger,
+    parts: Parts,
     reports: Vec<Report>,
     diagnostics: Diagnostics,
     prints: Vec<String>,
-}
-
-/// Everything a feature's derivation may read.
-struct Context<'a> {
-    recipe: &'a Recipe,
-    scene: &'a SceneSpec,
-    place: &'a Place,
-    assets: &'a dyn Assets,
-    limits: Limits,
-    defaults: Defaults,
-    seed: Seed,
-    /// Relief under all parts of one building together, by its id: they share one base.
-    wholes: BTreeMap<Arc<str>, Relief>,
-}
-
-/// Index of the first rule that takes each feature.
-pub fn assign(rules: &[RuleAssignment], features: &[Feature]) -> Vec<Option<usize>> {
-    features.iter().map(|f| rules.iter().position(|r| r.filter.matches(f.class, &f.tags, f.id))).collect()
 }
 
 /// Derives all features of a scene in all their states.
@@ -84,28 +58,32 @@ pub fn derive_features(
     assets: &dyn Assets,
     progress: &dyn Progress,
 ) -> Derivation {
-    let context = Context {
-        recipe,
-        scene,
-        place,
-        assets,
-        limits: Limits::default(),
-        defaults: Defaults::default(),
-        seed: Seed::root(scene.seed).named("feature"),
-        wholes: wholes(&place.features, &place.terrain),
-    };
-    progress.begin("derive", Some(place.features.len() as u64));
-    let derived: Vec<Derived> = place
+    let preparation = Preparation::new(recipe, scene, place);
+    let mut prepared: Vec<Prepared> = place
         .features
         .par_iter()
         .zip(road_ends(&place.features))
         .zip(assigned.par_iter().zip(touched))
-        .map(|((feature, ends), (rule, touched))| {
-            let derived = context.feature(feature, ends, *rule, *touched);
-            progress.step(1);
-            derived
-        })
+        .map(|((feature, ends), (rule, touched))| preparation.feature(feature, ends, *rule, *touched))
         .collect();
+
+    // One list of all states, each with the number of its feature.
+    let (mut states, mut members) = (Vec::new(), Vec::new());
+    for (number, feature) in prepared.iter_mut().enumerate() {
+        for (state, program, start) in feature.states.drain(..) {
+            let (is_in, sees) = worlds(state.presence);
+            members.push(Member { program, start, is_in, sees });
+            states.push((number, state));
+        }
+    }
+    progress.begin("derive", Some(members.len() as u64));
+    let derived = derive_all(&members, assets, &Limits::default(), |number, tree| {
+        let lot = prepared[states[number].0].lot.as_ref().expect("a feature with states has a lot");
+        let derived = derived(tree, lot, &place.terrain);
+        progress.step(1);
+        derived
+    });
+
     let mut out = Derivation {
         features: Vec::new(),
         outcomes: Vec::new(),
@@ -114,17 +92,20 @@ pub fn derive_features(
         diagnostics: Diagnostics::default(),
         prints: Vec::new(),
     };
-    for (feature, derived) in place.features.iter().zip(derived) {
-        out.outcomes.push(derived.outcome);
-        out.ledger.merge(derived.ledger);
-        if !derived.reports.is_empty() {
-            out.reports.push((feature.id.to_string(), derived.reports));
+    let mut derived = states.into_iter().zip(derived).peekable();
+    for (number, (feature, prepared)) in place.features.iter().zip(prepared).enumerate() {
+        let own = std::iter::from_fn(|| derived.next_if(|((of, _), _)| *of == number)).map(|((_, s), d)| (s, d));
+        let share = share(prepared, own);
+        out.outcomes.push(share.outcome);
+        out.ledger.merge(share.ledger);
+        if !share.reports.is_empty() {
+            out.reports.push((feature.id.to_string(), share.reports));
         }
-        out.diagnostics.extend(derived.diagnostics);
-        out.prints.extend(derived.prints);
-        if !derived.states.is_empty() {
+        out.diagnostics.extend(share.diagnostics);
+        out.prints.extend(share.prints);
+        if !share.states.is_empty() {
             let class = feature.class.into();
-            out.features.push(FeatureParts { feature: feature.id, class, states: derived.states });
+            out.features.push(FeatureParts { feature: feature.id, class, states: share.states });
         }
     }
     let triangles: usize = out.features.iter().flat_map(|f| &f.states).map(|s| s.parts.solid.triangles.len()).sum();
@@ -133,193 +114,57 @@ pub fn derive_features(
     out
 }
 
-/// The relief under all parts of each building that has parts.
-fn wholes(features: &[Feature], terrain: &Terrain) -> BTreeMap<Arc<str>, Relief> {
-    let mut wholes: BTreeMap<Arc<str>, Relief> = BTreeMap::new();
-    for feature in features {
-        let (Some(whole), Outline::Area(polygon)) = (feature.tags.get(tags::OUTLINE_KEY), &feature.outline) else {
-            continue;
-        };
-        if let Some((least, greatest)) = relief(std::slice::from_ref(polygon), terrain) {
-            let known = wholes.entry(whole.clone()).or_insert((least, greatest));
-            *known = (known.0.min(least), known.1.max(greatest));
-        }
-    }
-    wholes
+fn derived(tree: ShapeTree, lot: &Lot, terrain: &Terrain) -> Derived {
+    let failed = tree.diagnostics.iter().any(|d| d.severity == Severity::Error);
+    let parts = if failed { Parts::default() } else { lot.parts(&tree.leaves, terrain) };
+    let ShapeTree { diagnostics, prints, reports, .. } = tree;
+    Derived { parts, reports, diagnostics, prints }
 }
 
-/// The ends of every feature's ribbon; only roads' are used.
-fn road_ends(features: &[Feature]) -> Vec<[Cap; 2]> {
-    let line = |f: &Feature| match &f.outline {
-        Outline::Line(line) => line.clone(),
-        Outline::Area(_) => Vec::new(),
+/// One feature's share of the scene.
+struct Share {
+    outcome: Outcome,
+    states: Vec<StateParts>,
+    ledger: Ledger,
+    reports: Vec<Report>,
+    diagnostics: Diagnostics,
+    prints: Vec<String>,
+}
+
+/// Puts the states of a feature together. A feature fails as a whole.
+fn share(prepared: Prepared, states: impl Iterator<Item = (State, Derived)>) -> Share {
+    let mut out = Share {
+        outcome: prepared.outcome,
+        states: Vec::new(),
+        ledger: prepared.ledger,
+        reports: Vec::new(),
+        diagnostics: Diagnostics::default(),
+        prints: Vec::new(),
     };
-    let lines: Vec<Vec<DVec2>> = features.iter().map(line).collect();
-    caps(&lines.iter().map(Vec::as_slice).collect::<Vec<_>>())
-}
-
-impl Context<'_> {
-    fn whole(&self, feature: &Feature) -> Option<Relief> {
-        self.wholes.get(feature.tags.get(tags::OUTLINE_KEY)?).copied()
-    }
-
-    fn feature(&self, feature: &Feature, ends: [Cap; 2], rule: Option<usize>, touched: Option<Changed>) -> Derived {
-        let mut out = Derived {
-            outcome: Outcome::Ok,
-            states: Vec::new(),
-            ledger: Ledger::default(),
-            reports: Vec::new(),
-            diagnostics: Diagnostics::default(),
-            prints: Vec::new(),
-        };
-        let Some(rule) = rule else {
-            out.outcome = Outcome::Skipped("no rule of the recipe is for it".to_owned());
-            return out;
-        };
-        let lot = match Lot::new(feature, ends, self.whole(feature), &self.place.terrain) {
-            Ok(lot) => lot,
-            Err(why) => {
-                out.outcome = Outcome::Skipped(why);
-                return out;
-            }
-        };
-        let own = &self.scene.rules[rule];
-        match touched {
-            None => self.state(feature, &lot, own, (Presence::Both, 0, 0), &mut out),
-            Some(touched) => {
-                let change = &self.recipe.spec.changes[touched.change];
-                let key = |presence| (presence, touched.change as u16 + 1, touched.level as u8 + 1);
-                let effect = &change.levels[touched.level].effect;
-                if !matches!(effect, LevelEffect::Built) {
-                    self.state(feature, &lot, own, key(Presence::BeforeOnly), &mut out);
-                }
-                if let (false, Some(after)) = (matches!(out.outcome, Outcome::Skipped(_)), after(feature, own, effect))
-                {
-                    self.state(feature, &lot, after, key(Presence::AfterOnly), &mut out);
-                }
-            }
+    for (state, derived) in states {
+        let failed = derived.diagnostics.iter().find(|d| d.severity == Severity::Error);
+        if matches!(out.outcome, Outcome::Skipped(_)) {
+            continue;
         }
-        out
-    }
-
-    /// Derives one state and adds what it gives.
-    fn state(
-        &self,
-        feature: &Feature,
-        lot: &Lot,
-        rule: &RuleAssignment,
-        (presence, change, level): (Presence, u16, u8),
-        out: &mut Derived,
-    ) {
-        // A feature counts once: in its state before, or after where it is built new.
-        let counts_once = presence != Presence::AfterOnly || out.states.is_empty();
-        let attributes = self.attributes(feature, rule, if counts_once { Some(&mut out.ledger) } else { None });
-        let start = StartShape {
-            mesh: lot.mesh.clone(),
-            start_rule: rule.start.clone(),
-            attributes,
-            seed: self.seed.named(&feature.id.to_string()),
-            name: feature.id.to_string().into(),
-            host: HostData::default(),
-        };
-        let tree = derive(self.recipe.programs.get(&rule.file), &start, self.assets, &self.limits);
-        let failed = tree.diagnostics.iter().find(|d| d.severity == Severity::Error);
         if let Some(why) = failed.map(|d| format!("its rules failed: {}", d.message)) {
             out.outcome = Outcome::Skipped(why);
-            out.diagnostics.extend(tree.diagnostics);
+            out.diagnostics.extend(derived.diagnostics);
             out.states.clear();
-            out.reports = Vec::new();
+            out.reports.clear();
             out.prints.clear();
-            return;
+            continue;
         }
-        if let (Outcome::Ok, Some(simpler)) =
-            (&out.outcome, tree.diagnostics.iter().find(|d| FALLBACKS.contains(&d.code)))
-        {
+        let simpler = derived.diagnostics.iter().find(|d| FALLBACKS.contains(&d.code));
+        if let (Outcome::Ok, Some(simpler)) = (&out.outcome, simpler) {
             out.outcome = Outcome::FellBack(simpler.message.clone());
         }
-        let parts = lot.parts(&tree.leaves, &self.place.terrain);
-        let ShapeTree { diagnostics, prints, reports, .. } = tree;
-        if counts_once {
-            out.reports = reports;
+        if state.counts {
+            out.reports = derived.reports;
         }
-        out.diagnostics.extend(diagnostics);
-        out.prints.extend(prints);
-        out.states.push(StateParts { presence, change, level, parts });
+        out.diagnostics.extend(derived.diagnostics);
+        out.prints.extend(derived.prints);
+        let State { presence, change, level, counts: _ } = state;
+        out.states.push(StateParts { presence, change, level, parts: derived.parts });
     }
-
-    /// The attributes of a start shape: tags, defaults of the recipe, then the assignment's own values.
-    fn attributes(
-        &self,
-        feature: &Feature,
-        rule: &RuleAssignment,
-        ledger: Option<&mut Ledger>,
-    ) -> Vec<(Arc<str>, Scalar)> {
-        let mut unused = Ledger::default();
-        let ledger = ledger.unwrap_or(&mut unused);
-        let seed = self.seed.named(&feature.id.to_string());
-        let mut filled = feature.clone();
-        for missing in &self.scene.missing {
-            let taken = missing.filter.matches(feature.class, &feature.tags, feature.id);
-            if taken && !filled.tags.contains_key(missing.tag.as_str()) {
-                let value = drawn_text(&missing.value.draw(seed.named("missing").named(&missing.tag)));
-                ledger.assume(format!("{}: filled by the recipe", missing.tag));
-                filled.tags.insert(missing.tag.as_str().into(), value.into());
-            }
-        }
-        let mut list: Vec<(Arc<str>, Scalar)> = Vec::new();
-        for (name, value) in tags::attributes(&filled, &self.defaults, ledger) {
-            let value = match value {
-                TagValue::Number(x) => Scalar::Float(x),
-                TagValue::Bool(b) => Scalar::Bool(b),
-                TagValue::Text(text) => Scalar::String(text),
-            };
-            set(&mut list, name, value);
-        }
-        for attribute in &rule.attributes {
-            let draw = |value: &ValueSpec| scalar(value.draw(seed.named("attribute").named(&attribute.name)));
-            let value = match &attribute.value {
-                AttributeValue::Value(value) => Some(draw(value)),
-                AttributeValue::Tag { key, default } => match filled.tags.get(key.as_str()) {
-                    Some(text) => Some(Scalar::String(text.clone())),
-                    None => default.as_ref().map(draw),
-                },
-            };
-            if let Some(value) = value {
-                set(&mut list, attribute.name.as_str().into(), value);
-            }
-        }
-        list
-    }
-}
-
-/// The rules of the state *after*; `None` where the feature is gone.
-fn after<'a>(feature: &Feature, own: &'a RuleAssignment, effect: &'a LevelEffect) -> Option<&'a RuleAssignment> {
-    match effect {
-        LevelEffect::Rules(rules) => rules.iter().find(|r| r.filter.matches(feature.class, &feature.tags, feature.id)),
-        LevelEffect::Demolished => None,
-        LevelEffect::Built => Some(own),
-    }
-}
-
-fn set(list: &mut Vec<(Arc<str>, Scalar)>, name: Arc<str>, value: Scalar) {
-    match list.iter_mut().find(|(n, _)| *n == name) {
-        Some((_, old)) => *old = value,
-        None => list.push((name, value)),
-    }
-}
-
-fn scalar(value: DrawnValue) -> Scalar {
-    match value {
-        DrawnValue::Number(x) => Scalar::Float(x),
-        DrawnValue::Bool(b) => Scalar::Bool(b),
-        DrawnValue::Text(text) => Scalar::String(text.into()),
-    }
-}
-
-fn drawn_text(value: &DrawnValue) -> String {
-    match value {
-        DrawnValue::Number(x) => x.to_string(),
-        DrawnValue::Bool(b) => if *b { "yes" } else { "no" }.to_owned(),
-        DrawnValue::Text(text) => text.clone(),
-    }
+    out
 }

@@ -7,8 +7,10 @@ mod build;
 mod derivation;
 mod error;
 mod lot;
+mod neighbours;
 mod place;
 mod portrait;
+mod preparation;
 mod progress;
 mod recipe;
 mod record;
@@ -16,6 +18,7 @@ mod render;
 mod rules;
 pub mod shipped;
 mod single;
+mod streets;
 mod textures;
 mod views;
 

@@ -17,6 +17,10 @@ pub struct Programs {
 }
 
 impl Programs {
+    pub fn all(&self) -> impl Iterator<Item = &Program> {
+        self.programs.values()
+    }
+
     /// The program of a reference.
     pub fn get(&self, file: &FileRef) -> &Program {
         self.programs.get(&key(file)).expect("every rule file of a checked recipe was compiled")

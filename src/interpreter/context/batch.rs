@@ -15,7 +15,7 @@ pub type Worlds = u8;
 
 /// One start shape of a batch.
 #[derive(Clone, Debug)]
-pub struct Lot<'a> {
+pub struct Member<'a> {
     pub program: &'a Program,
     pub start: StartShape,
     pub is_in: Worlds,
@@ -26,26 +26,26 @@ pub struct Lot<'a> {
 /// (reference 6.8).
 pub const REACH: f64 = 1.0;
 
-/// Lots with who is near whom.
+/// Start shapes with who is near whom.
 pub struct Batch<'a> {
-    lots: &'a [Lot<'a>],
+    members: &'a [Member<'a>],
     assets: &'a dyn Assets,
     limits: &'a Limits,
-    /// By lot: those within reach, for lots that ask.
+    /// By member: those within reach, for members that ask.
     near: Vec<Vec<u32>>,
     surveyed: Vec<bool>,
 }
 
 impl<'a> Batch<'a> {
-    pub fn new(lots: &'a [Lot<'a>], assets: &'a dyn Assets, limits: &'a Limits) -> Self {
-        let mut batch = Batch { lots, assets, limits, near: vec![Vec::new(); lots.len()], surveyed: Vec::new() };
-        batch.surveyed = lots.iter().map(|lot| lot.program.needs().own).collect();
-        if lots.iter().any(|lot| lot.program.needs().near) {
+    pub fn new(members: &'a [Member<'a>], assets: &'a dyn Assets, limits: &'a Limits) -> Self {
+        let mut batch = Batch { members, assets, limits, near: vec![Vec::new(); members.len()], surveyed: Vec::new() };
+        batch.surveyed = members.iter().map(|member| member.program.needs().own).collect();
+        if members.iter().any(|member| member.program.needs().near) {
             batch.find_neighbours();
         }
-        if lots.iter().any(|lot| lot.program.needs().far) {
-            for (surveyed, lot) in batch.surveyed.iter_mut().zip(lots) {
-                *surveyed |= lot.program.needs().labels;
+        if members.iter().any(|member| member.program.needs().far) {
+            for (surveyed, member) in batch.surveyed.iter_mut().zip(members) {
+                *surveyed |= member.program.needs().labels;
             }
         }
         batch
@@ -53,15 +53,15 @@ impl<'a> Batch<'a> {
 
     fn find_neighbours(&mut self) {
         let nowhere = Bounds { lo: glam::DVec3::INFINITY, hi: glam::DVec3::NEG_INFINITY };
-        let level = |lot: &Lot| match Bounds::around(lot.start.mesh.positions.iter().map(|p| p.with_y(0.0))) {
+        let level = |member: &Member| match Bounds::around(member.start.mesh.positions.iter().map(|p| p.with_y(0.0))) {
             Some(bounds) => bounds,
             None => nowhere,
         };
-        let boxes: Vec<Bounds> = self.lots.iter().map(level).collect();
+        let boxes: Vec<Bounds> = self.members.iter().map(level).collect();
         let tree = BoxTree::new(boxes.clone());
-        for (i, lot) in self.lots.iter().enumerate().filter(|(_, lot)| lot.program.needs().near) {
+        for (i, member) in self.members.iter().enumerate().filter(|(_, member)| member.program.needs().near) {
             let around = tree.touching(&boxes[i].grown(REACH)).into_iter();
-            let near = around.filter(|&j| j != i && self.lots[j].is_in & lot.sees != 0);
+            let near = around.filter(|&j| j != i && self.members[j].is_in & member.sees != 0);
             self.near[i] = near.map(|j| j as u32).collect();
         }
         for &j in self.near.iter().flatten() {
@@ -69,35 +69,35 @@ impl<'a> Batch<'a> {
         }
     }
 
-    /// Whether the lot needs a first derivation.
-    pub fn needs_survey(&self, lot: usize) -> bool {
-        self.surveyed[lot]
+    /// Whether the start shape needs a first derivation.
+    pub fn needs_survey(&self, number: usize) -> bool {
+        self.surveyed[number]
     }
 
     /// The first derivation, where it is needed.
-    pub fn survey(&self, lot: usize) -> Option<Survey> {
-        let Lot { program, start, .. } = &self.lots[lot];
-        self.needs_survey(lot).then(|| survey(program, start, self.assets, self.limits))
+    pub fn survey(&self, number: usize) -> Option<Survey> {
+        let Member { program, start, .. } = &self.members[number];
+        self.needs_survey(number).then(|| survey(program, start, self.assets, self.limits))
     }
 
-    /// The second derivation, or the only one. `surveys` holds [`Batch::survey`] of every lot.
-    pub fn derive(&self, lot: usize, surveys: &[Option<Survey>]) -> ShapeTree {
-        let Lot { program, start, sees, .. } = &self.lots[lot];
+    /// The second derivation, or the only one. `surveys` holds [`Batch::survey`] of every member.
+    pub fn derive(&self, number: usize, surveys: &[Option<Survey>]) -> ShapeTree {
+        let Member { program, start, sees, .. } = &self.members[number];
         let needs = program.needs();
         if !needs.asks() {
             return derive(program, start, self.assets, self.limits);
         }
-        let near = self.near[lot].iter().filter_map(|&j| surveys[j as usize].as_ref()).collect();
-        let others = (0..self.lots.len()).filter(|&j| needs.far && j != lot && self.lots[j].is_in & sees != 0);
-        let labelled = others.filter(|&j| self.lots[j].program.needs().labels);
+        let near = self.near[number].iter().filter_map(|&j| surveys[j as usize].as_ref()).collect();
+        let others = (0..self.members.len()).filter(|&j| needs.far && j != number && self.members[j].is_in & sees != 0);
+        let labelled = others.filter(|&j| self.members[j].program.needs().labels);
         let labelled = labelled.filter_map(|j| surveys[j].as_ref()).collect();
-        let surroundings = Surroundings { own: surveys[lot].as_ref(), near, labelled };
+        let surroundings = Surroundings { own: surveys[number].as_ref(), near, labelled };
         derive_among(program, start, self.assets, self.limits, &surroundings)
     }
 
     /// Everything on this thread.
     pub fn derive_all(&self) -> Vec<ShapeTree> {
-        let surveys: Vec<Option<Survey>> = (0..self.lots.len()).map(|i| self.survey(i)).collect();
-        (0..self.lots.len()).map(|i| self.derive(i, &surveys)).collect()
+        let surveys: Vec<Option<Survey>> = (0..self.members.len()).map(|i| self.survey(i)).collect();
+        (0..self.members.len()).map(|i| self.derive(i, &surveys)).collect()
     }
 }

@@ -10,7 +10,7 @@ mod record;
 
 use std::sync::{Arc, OnceLock};
 
-pub use batch::{Batch, Lot, Worlds};
+pub use batch::{Batch, Member, Worlds};
 pub use record::{Context, Trail};
 
 use super::form::Form;
