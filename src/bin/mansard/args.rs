@@ -29,7 +29,7 @@ pub enum Command {
         #[command(flatten)]
         recipe: RecipeOptions,
     },
-    /// Run a rule file on one footprint
+    /// Run a rule file on a footprint, or on several
     Derive(DeriveArgs),
     /// Build the meshes of a recipe's scene as binary glTF
     Build {
@@ -116,9 +116,15 @@ pub struct WorkOptions {
 pub struct DeriveArgs {
     /// The .cga file
     pub rules: PathBuf,
-    /// Corners "x,z x,z ..." in metres, y up; holes after `;`, in the order given
-    #[arg(long, value_name = "RINGS", allow_hyphen_values = true)]
-    pub footprint: String,
+    /// Corners "x,z x,z ..." in metres, y up; holes after `;`, in the order given; more start shapes see each other
+    #[arg(long, value_name = "RINGS", allow_hyphen_values = true, required = true)]
+    pub footprint: Vec<String>,
+    /// A street along an edge of the footprint, counted from 0
+    #[arg(long, value_name = "EDGE=METRES")]
+    pub street_width: Vec<String>,
+    /// Values of an edge attribute, edge by edge
+    #[arg(long, value_name = "NAME=VALUE,...")]
+    pub edge_attr: Vec<String>,
     /// Start rule; the file's own @StartRule otherwise
     #[arg(long, value_name = "RULE")]
     pub start: Option<String>,

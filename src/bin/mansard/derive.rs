@@ -1,4 +1,4 @@
-//! `mansard derive`: one rule file on one footprint.
+//! `mansard derive`: one rule file on one footprint or several.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -10,7 +10,7 @@ use mansard::geometry::Mesh;
 use mansard::interpreter::reports::table;
 use mansard::interpreter::seed::Seed;
 use mansard::interpreter::tree::{Scalar, ShapeTree};
-use mansard::interpreter::{FileAssets, Limits, StartShape, derive, json::to_json, obj::to_obj, text::to_text};
+use mansard::interpreter::{FileAssets, StartShape, json::to_json, obj::to_obj, text::to_text};
 use mansard::output::write_bytes;
 use mansard::pipeline::{portrait, single_scene};
 use mansard::scene::export::to_glb;
@@ -21,23 +21,35 @@ use crate::check::rule_access;
 use crate::footprint;
 use crate::report::{self, Failure};
 use crate::reports;
+use crate::start_shapes;
 
 /// Pixels.
 const PICTURE: (u32, u32) = (640, 480);
 
 pub fn run(args: &DeriveArgs, quiet: bool) -> Result<(), Failure> {
     reports::check(args.reports.as_ref())?;
-    let mesh = footprint::parse(&args.footprint).map_err(|e| Failure::unable(format!("--footprint: {e}")))?;
+    let parse = |text: &String| footprint::parse(text).map_err(|e| Failure::unable(format!("--footprint: {e}")));
+    let meshes: Vec<Mesh> = args.footprint.iter().map(parse).collect::<Result<_, _>>()?;
+    let host = start_shapes::host(&args.street_width, &args.edge_attr).map_err(Failure::unable)?;
     let access = rule_access(&args.rules, &args.allow)?;
     let mut sources = SourceMap::default();
     let (program, mut diagnostics) = cga::compile(&args.rules, &access, &mut sources, &CompileOptions::default());
-    let mut tree = ShapeTree::default();
-    let outline = mesh.clone();
+    let outline = start_shapes::together(&meshes);
+    let mut trees = Vec::new();
     if let Some(program) = &program {
-        let attributes = args.attributes.iter().map(|a| attribute(a, program)).collect::<Result<_, _>>()?;
-        let start = StartShape { attributes, start_rule: args.start.clone(), ..start(mesh, args.seed) };
-        tree = derive(program, &start, &FileAssets::new(access.clone()), &Limits::default());
+        let attributes: Vec<_> = args.attributes.iter().map(|a| attribute(a, program)).collect::<Result<_, _>>()?;
+        let start = |(number, mesh)| StartShape {
+            attributes: attributes.clone(),
+            start_rule: args.start.clone(),
+            host: host.clone(),
+            ..StartShape::new(mesh, Seed::root(args.seed), &name(number))
+        };
+        let starts = meshes.into_iter().enumerate().map(start).collect();
+        trees = start_shapes::derive_all(program, starts, &FileAssets::new(access.clone()));
     }
+    let reported = |(number, tree): (usize, &ShapeTree)| (name(number), tree.reports.clone());
+    let features = trees.iter().enumerate().map(reported).collect();
+    let mut tree = start_shapes::joined(trees);
     diagnostics.extend(std::mem::take(&mut tree.diagnostics));
     tree.diagnostics = diagnostics;
     report::print(&tree.diagnostics, &sources, quiet);
@@ -45,7 +57,6 @@ pub fn run(args: &DeriveArgs, quiet: bool) -> Result<(), Failure> {
         write(&tree, &outline, args, &access, &sources)?;
     }
     let scene = args.rules.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-    let features = vec![("footprint".to_owned(), tree.reports.clone())];
     reports::write(args.reports.as_ref(), &[SceneReports { scene, features }])?;
     // The tree and the JSON hold the reports themselves.
     if !quiet && !matches!(args.format, DeriveFormat::Tree | DeriveFormat::Json) {
@@ -58,7 +69,9 @@ pub fn run(args: &DeriveArgs, quiet: bool) -> Result<(), Failure> {
 pub fn dump(file: &Path, quiet: bool) -> Result<(), Failure> {
     let args = DeriveArgs {
         rules: file.to_owned(),
-        footprint: "0,0 10,0 10,-8 0,-8".to_owned(),
+        footprint: vec!["0,0 10,0 10,-8 0,-8".to_owned()],
+        street_width: Vec::new(),
+        edge_attr: Vec::new(),
         start: None,
         attributes: Vec::new(),
         seed: 0,
@@ -70,8 +83,9 @@ pub fn dump(file: &Path, quiet: bool) -> Result<(), Failure> {
     run(&args, quiet)
 }
 
-fn start(mesh: Mesh, seed: u64) -> StartShape {
-    StartShape::new(mesh, Seed::root(seed), "footprint")
+/// `footprint`, `footprint-2`, ...
+fn name(number: usize) -> String {
+    if number == 0 { "footprint".to_owned() } else { format!("footprint-{}", number + 1) }
 }
 
 /// `name=value`: a number, `true`, `false`, or text.

@@ -11,6 +11,7 @@ mod progress;
 mod render;
 mod report;
 mod reports;
+mod start_shapes;
 mod town;
 
 use std::process::ExitCode;
