@@ -2,12 +2,15 @@
 //!
 //! Attributes go to the device once; positions are written anew for each camera, relative to it (see [`GpuScene::place`]).
 
+use std::collections::BTreeSet;
 use std::ops::Range;
+use std::sync::Arc;
 
 use glam::DVec3;
 
 use super::device::Gpu;
 use super::mipmaps::{self, linear_from_srgb};
+use crate::interpreter::material::{MapTransform, Material};
 use crate::plan::pass::Surface;
 use crate::plan::summary::material_surfaces;
 use crate::scene::{Scene, SceneClass, SceneObject};
@@ -43,7 +46,7 @@ pub struct GpuScene {
     pub attributes: wgpu::Buffer,
     pub positions: wgpu::Buffer,
     pub materials: wgpu::Buffer,
-    textures: Vec<std::sync::Arc<image::RgbaImage>>,
+    textures: Vec<Arc<image::RgbaImage>>,
     /// Made when a pass first samples them.
     texture_groups: Vec<Option<wgpu::BindGroup>>,
     world: Vec<DVec3>,
@@ -62,7 +65,7 @@ impl GpuScene {
         for (number, object) in scene.objects.iter().enumerate() {
             let base = world.len() as u32;
             world.extend_from_slice(&object.mesh.positions);
-            push_attributes(&mut attributes, number, object);
+            push_attributes(&mut attributes, number, object, &scene.materials);
             for group in object.mesh.groups.iter().filter(|g| g.count > 0) {
                 let material = group.material as usize;
                 let Some(surface) = surfaces[material] else { continue };
@@ -140,7 +143,7 @@ fn layer(class: SceneClass) -> u8 {
     }
 }
 
-fn push_attributes(attributes: &mut Vec<Attributes>, number: usize, object: &SceneObject) {
+fn push_attributes(attributes: &mut Vec<Attributes>, number: usize, object: &SceneObject, materials: &[Arc<Material>]) {
     let mesh = &object.mesh;
     let start = attributes.len();
     // Ground layers are seen from above alone; walls of ruins and open roofs from both sides.
@@ -153,8 +156,17 @@ fn push_attributes(attributes: &mut Vec<Attributes>, number: usize, object: &Sce
     }));
     for group in &mesh.groups {
         let triangles = mesh.triangles.iter().skip(group.first as usize).take(group.count as usize);
-        for &vertex in triangles.flatten() {
+        for &vertex in triangles.clone().flatten() {
             attributes[start + vertex as usize].material = group.material;
+        }
+        let transform = materials[group.material as usize].colormap_transform;
+        if transform != MapTransform::IDENTITY {
+            let vertices: BTreeSet<u32> = triangles.flatten().copied().collect();
+            for vertex in vertices {
+                let uv = &mut attributes[start + vertex as usize].uv;
+                let [u, v] = transform.apply([f64::from(uv[0]), 1.0 - f64::from(uv[1])]);
+                *uv = [u as f32, 1.0 - v as f32];
+            }
         }
     }
 }

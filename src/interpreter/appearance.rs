@@ -1,11 +1,11 @@
 //! The two layers of material (reference 3.9). In: `color`, `texture`, `set(material.*)` and asset materials.
-//! Out: an [`Appearance`], which holds only what was set, and the [`Material`] it comes to.
+//! Out: an [`Appearance`], which holds only what was set, and the material it comes to.
 
+mod finish;
 mod pairs;
 
 use std::sync::Arc;
 
-use super::material::Material;
 use super::value::Value;
 use crate::cga::builtins::{Attr, MapLayer, MapPart, MaterialAttr};
 
@@ -109,20 +109,6 @@ impl Appearance {
             out.set_other(name.clone(), value.clone());
         }
         out
-    }
-
-    /// The material with defaults filled in.
-    pub fn material(&self) -> Material {
-        let default = Material::default();
-        Material {
-            name: self.name.clone().unwrap_or(default.name),
-            color: self.color.map(|c| c.unwrap_or(1.0)),
-            opacity: self.opacity.unwrap_or(default.opacity),
-            roughness: self.roughness.unwrap_or(default.roughness),
-            metallic: self.metallic.unwrap_or(default.metallic),
-            colormap: self.colormap.clone().filter(|path| !path.is_empty()),
-            other: self.other.iter().map(|(n, v)| (n.clone(), v.to_text())).collect(),
-        }
     }
 }
 

@@ -3,7 +3,7 @@
 
 use serde_json::{Map, Value, json};
 
-use super::material::Material;
+use super::material::{MapTransform, Material};
 use super::reports::Report;
 use super::tree::{Leaf, Scalar, ShapeTree};
 use crate::diagnostics::Rendered;
@@ -60,13 +60,22 @@ fn uvs(leaf: &Leaf) -> Value {
 fn material(material: &Material) -> Value {
     let other: Map<String, Value> =
         material.other.iter().map(|(n, v)| (n.to_string(), Value::String(v.to_string()))).collect();
+    let map = |path: &str, t: &MapTransform| json!({ "path": path, "scale": t.scale, "offset": t.offset, "rotation": t.rotation });
+    let color = material.colormap.iter().map(|path| ("colormap".to_owned(), map(path, &material.colormap_transform)));
+    let others = material.maps.iter().map(|m| (m.layer_name().to_owned(), map(&m.path, &m.transform)));
+    let maps: Map<String, Value> = color.chain(others).collect();
     json!({
         "name": &*material.name,
         "color": material.color,
         "opacity": material.opacity,
+        "opacity_mode": material.opacity_mode.name(),
+        "opacity_cutoff": material.opacity_cutoff,
         "roughness": material.roughness,
         "metallic": material.metallic,
+        "emissive": material.emissive,
+        "double_sided": material.double_sided,
         "colormap": material.colormap.as_deref(),
+        "maps": maps,
         "other": other,
     })
 }

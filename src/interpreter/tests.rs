@@ -12,6 +12,7 @@ mod frames;
 mod groups;
 mod imports;
 mod limits;
+mod materials;
 mod normals;
 mod planar;
 mod planar_properties;

@@ -68,7 +68,7 @@ pub fn build_scene(recipe: &Recipe, index: usize, progress: &dyn Progress) -> Re
         .map_err(|source| PipelineError::Ground { scene: spec.name.clone(), source })?;
     let changed = change_records(recipe, &derived.features, &drawn);
     let mut scene = assemble(derived.features, &ground);
-    let textures = textures::load(&mut scene, &recipe.access)?;
+    let textures = textures::load(&mut scene, &assets)?;
     let mut files = textures.files;
     files.extend(asset_files(&assets).map_err(|e| OutputError::new(&recipe.path, e))?);
     let Place { frame, terrain, mut ledger, features, .. } = place;

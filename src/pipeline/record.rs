@@ -110,6 +110,10 @@ pub fn geometry_hash(scene: &Scene) -> String {
         }
         hash.update(bytemuck::cast_slice(&mesh.normals));
         hash.update(bytemuck::cast_slice(&mesh.uvs));
+        for (set, uvs) in &mesh.uv_sets {
+            hash.update([*set]);
+            hash.update(bytemuck::cast_slice(uvs));
+        }
         hash.update(bytemuck::cast_slice(&mesh.triangles));
         for group in &mesh.groups {
             hash.update(format!("{group:?}").as_bytes());

@@ -4,6 +4,7 @@ use super::error::PipelineError;
 use super::textures;
 use crate::geodata::feature::{FeatureId, ObjectKind};
 use crate::geometry::Polygon;
+use crate::interpreter::FileAssets;
 use crate::interpreter::tree::ShapeTree;
 use crate::scene::assemble::{FeatureParts, StateParts, assemble};
 use crate::scene::ground::GroundMesh;
@@ -20,6 +21,6 @@ pub fn single_scene(tree: &ShapeTree, access: &Access) -> Result<Scene, Pipeline
         states: vec![StateParts { presence: Presence::Both, change: 0, level: 0, parts }],
     };
     let mut scene = assemble(vec![feature], &GroundMesh::default());
-    textures::load(&mut scene, access)?;
+    textures::load(&mut scene, &FileAssets::new(access.clone()))?;
     Ok(scene)
 }

@@ -1,17 +1,23 @@
-//! Textures of a scene. In: the materials' texture names. Out: decoded images in the scene, sorted by name; built-in ones are painted,
-//! files are read through the allowed folders, with bounded sizes.
+//! Textures of a scene. In: the textures that materials name. Out: decoded images in the scene, sorted by name; built-in
+//! ones are painted, files are read through the allowed folders, with bounded sizes.
+//!
+//! The colour texture of a material carries its opacity: the alpha channel is that of the opacity map (its alpha
+//! channel if it has one, else its brightness), and 1 without one. An opacity map on another uv set than the colour's is
+//! taken to lie on the same.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::io::Cursor;
 use std::path::Path;
 use std::sync::Arc;
 
-use image::{ImageReader, Limits, RgbaImage};
+use image::imageops::{FilterType, resize};
+use image::{ImageFormat, ImageReader, Limits, Luma, Rgba, RgbaImage};
 
 use super::error::PipelineError;
 use crate::dataset::manifest::InputFile;
 use crate::dataset::writer::sha256;
-use crate::interpreter::material::Material;
+use crate::interpreter::FileAssets;
+use crate::interpreter::material::{MapLayer, Material, OpacityMode};
 use crate::scene::Scene;
 use crate::scene::texture::builtin;
 use crate::source::Access;
@@ -19,10 +25,8 @@ use crate::source::Access;
 /// Largest side of a texture file, pixels; keeps a small file from filling the memory.
 const LARGEST_SIDE: u32 = 8192;
 
-/// Larger texture files are refused.
-const MOST_BYTES: u64 = 256 << 20;
-
 /// What loading found besides the images.
+#[derive(Default)]
 pub struct Loaded {
     /// Texture files by content.
     pub files: Vec<InputFile>,
@@ -30,58 +34,186 @@ pub struct Loaded {
     pub missing: Vec<String>,
 }
 
+/// An image under the name that the scene calls it by.
+#[derive(Clone)]
+struct Texture {
+    name: Arc<str>,
+    pixels: Arc<RgbaImage>,
+    has_alpha: bool,
+}
+
+struct Loader<'a> {
+    assets: &'a FileAssets,
+    /// By the names in materials; `None` for what is missing.
+    read: BTreeMap<Arc<str>, Option<Texture>>,
+    /// By the names in the scene.
+    images: BTreeMap<Arc<str>, Arc<RgbaImage>>,
+    loaded: Loaded,
+}
+
 /// Loads every texture that the scene's materials name into the scene. Files are named by their path below the run's
 /// folder, so that a scene does not depend on where that folder lies.
-pub fn load(scene: &mut Scene, access: &Access) -> Result<Loaded, PipelineError> {
-    let names: BTreeSet<Arc<str>> = scene.materials.iter().filter_map(|m| m.colormap.clone()).collect();
-    let mut loaded = Loaded { files: Vec::new(), missing: Vec::new() };
-    let mut images = BTreeMap::new();
-    for name in names {
-        if name.starts_with("builtin:") {
-            match builtin(&name) {
-                Some(image) => drop(images.insert(name, Arc::new(image))),
-                None => loaded.missing.push(name.to_string()),
-            }
-            continue;
-        }
-        match access.read(access.root(), &name, MOST_BYTES) {
-            Ok((path, bytes)) => {
-                let short: Arc<str> = below(&path, access).into();
-                let hash = sha256(&bytes);
-                loaded.files.push(InputFile {
-                    role: "texture",
-                    name: short.to_string(),
-                    bytes: bytes.len() as u64,
-                    sha256: hash,
-                });
-                let image = decode(bytes).map_err(|source| PipelineError::Texture { path, source })?;
-                rename(&mut scene.materials, &name, &short);
-                images.insert(short, Arc::new(image));
-            }
-            Err(error) => loaded.missing.push(error.to_string()),
+pub fn load(scene: &mut Scene, assets: &FileAssets) -> Result<Loaded, PipelineError> {
+    let mut loader = Loader { assets, read: BTreeMap::new(), images: BTreeMap::new(), loaded: Loaded::default() };
+    for material in &mut scene.materials {
+        if material.colormap.is_some() || !material.maps.is_empty() {
+            loader.material(Arc::make_mut(material))?;
         }
     }
-    scene.textures = images.into_iter().collect();
-    Ok(loaded)
+    scene.textures = loader.images.into_iter().collect();
+    loader.loaded.files.sort();
+    loader.loaded.files.dedup();
+    Ok(loader.loaded)
 }
 
-/// A file's path below the first allowed folder that holds it, or its name alone.
-fn below(path: &Path, access: &Access) -> String {
+impl Loader<'_> {
+    /// Gives a material's textures the names of the scene.
+    fn material(&mut self, material: &mut Material) -> Result<(), PipelineError> {
+        let opacity = match (material.opacity_mode, material.map(MapLayer::Opacity)) {
+            (OpacityMode::Opaque, _) | (_, None) => None,
+            (_, Some(map)) => self.texture(&map.path.clone())?,
+        };
+        let color = match material.colormap.take() {
+            Some(path) => self.texture(&path)?,
+            None => None,
+        };
+        material.colormap = color_with_opacity(color, opacity).map(|texture| self.keep(texture));
+        for mut map in std::mem::take(&mut material.maps) {
+            if let Some(texture) = self.texture(&map.path)? {
+                // The opacity map is in the colour texture; its own name is kept.
+                map.path = if map.layer == MapLayer::Opacity { texture.name } else { self.keep(texture) };
+                material.maps.push(map);
+            }
+        }
+        Ok(())
+    }
+
+    fn keep(&mut self, texture: Texture) -> Arc<str> {
+        self.images.insert(texture.name.clone(), texture.pixels);
+        texture.name
+    }
+
+    fn texture(&mut self, path: &Arc<str>) -> Result<Option<Texture>, PipelineError> {
+        if let Some(known) = self.read.get(path) {
+            return Ok(known.clone());
+        }
+        let texture = if path.starts_with("builtin:") {
+            builtin(path).map(|pixels| Texture { name: path.clone(), pixels: Arc::new(pixels), has_alpha: false })
+        } else {
+            self.file(path)?
+        };
+        if texture.is_none() {
+            self.loaded.missing.push(path.to_string());
+        }
+        self.read.insert(path.clone(), texture.clone());
+        Ok(texture)
+    }
+
+    fn file(&mut self, named: &str) -> Result<Option<Texture>, PipelineError> {
+        let Ok((path, bytes)) = self.assets.texture(named) else { return Ok(None) };
+        let name = below(&path, named, self.assets.access());
+        let (size, hash) = (bytes.len() as u64, sha256(&bytes));
+        self.loaded.files.push(InputFile { role: "texture", name: name.clone(), bytes: size, sha256: hash });
+        let image = decode(&path, bytes).map_err(|source| PipelineError::Texture { path, source })?;
+        let has_alpha = image.color().has_alpha();
+        Ok(Some(Texture { name: name.into(), pixels: Arc::new(image.to_rgba8()), has_alpha }))
+    }
+}
+
+/// A file's path below the first allowed folder that holds it, or its name alone; with the number of the image for one
+/// that lies inside another file.
+fn below(path: &Path, named: &str, access: &Access) -> String {
     let short = path.strip_prefix(access.root()).ok().or_else(|| path.file_name().map(Path::new)).unwrap_or(path);
-    short.to_string_lossy().replace('\\', "/")
+    let mark = named.find("#image:").map_or("", |at| &named[at..]);
+    short.to_string_lossy().replace('\\', "/") + mark
 }
 
-fn rename(materials: &mut [Arc<Material>], from: &str, to: &Arc<str>) {
-    for material in materials.iter_mut().filter(|m| m.colormap.as_deref() == Some(from)) {
-        Arc::make_mut(material).colormap = Some(to.clone());
+/// The colour texture with the opacity in its alpha channel.
+fn color_with_opacity(color: Option<Texture>, opacity: Option<Texture>) -> Option<Texture> {
+    let Some(opacity) = opacity else {
+        let color = color?;
+        if !color.has_alpha {
+            return Some(color);
+        }
+        let mut pixels = (*color.pixels).clone();
+        pixels.pixels_mut().for_each(|pixel| pixel.0[3] = 255);
+        let name = format!("{}|opaque", color.name).into();
+        return Some(Texture { name, pixels: Arc::new(pixels), has_alpha: false });
+    };
+    let same = |color: &Texture| color.name == opacity.name && color.has_alpha;
+    if color.as_ref().is_some_and(same) {
+        return color;
     }
+    let name = format!("{}|{}", color.as_ref().map_or("", |c| &*c.name), opacity.name).into();
+    let mut pixels = match color {
+        Some(color) => (*color.pixels).clone(),
+        None => RgbaImage::from_pixel(opacity.pixels.width(), opacity.pixels.height(), Rgba([255; 4])),
+    };
+    let share = |pixel: &Rgba<u8>| if opacity.has_alpha { pixel.0[3] } else { brightness(pixel) };
+    let mut alpha = image::GrayImage::from_fn(opacity.pixels.width(), opacity.pixels.height(), |x, y| {
+        Luma([share(opacity.pixels.get_pixel(x, y))])
+    });
+    if alpha.dimensions() != pixels.dimensions() {
+        alpha = resize(&alpha, pixels.width(), pixels.height(), FilterType::Triangle);
+    }
+    pixels.pixels_mut().zip(alpha.pixels()).for_each(|(pixel, alpha)| pixel.0[3] = alpha.0[0]);
+    Some(Texture { name, pixels: Arc::new(pixels), has_alpha: true })
 }
 
-fn decode(bytes: Vec<u8>) -> image::ImageResult<RgbaImage> {
+/// Rec. 709.
+fn brightness(pixel: &Rgba<u8>) -> u8 {
+    let [r, g, b, _] = pixel.0.map(f64::from);
+    (0.2126 * r + 0.7152 * g + 0.0722 * b).round() as u8
+}
+
+/// The file's bytes are bounded; here the pixels are, before any is decoded.
+fn decode(path: &Path, bytes: Vec<u8>) -> image::ImageResult<image::DynamicImage> {
     let mut reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format().map_err(image::ImageError::IoError)?;
+    if let (None, Ok(format)) = (reader.format(), ImageFormat::from_path(path)) {
+        reader.set_format(format);
+    }
     let mut limits = Limits::default();
     limits.max_image_width = Some(LARGEST_SIDE);
     limits.max_image_height = Some(LARGEST_SIDE);
     reader.limits(limits);
-    Ok(reader.decode()?.to_rgba8())
+    reader.decode()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn texture(name: &str, pixels: &[[u8; 4]], has_alpha: bool) -> Option<Texture> {
+        let image = RgbaImage::from_fn(pixels.len() as u32, 1, |x, _| Rgba(pixels[x as usize]));
+        Some(Texture { name: name.into(), pixels: Arc::new(image), has_alpha })
+    }
+
+    #[track_caller]
+    fn composed(color: Option<Texture>, opacity: Option<Texture>, name: &str, alpha: &[u8]) {
+        let texture = color_with_opacity(color, opacity).expect("there is one");
+        let found: Vec<u8> = texture.pixels.pixels().map(|p| p.0[3]).collect();
+        assert_eq!((&*texture.name, found.as_slice()), (name, alpha));
+    }
+
+    #[test]
+    fn opacity_lies_in_the_alpha_channel() {
+        let leaf = || texture("leaf", &[[9, 9, 9, 0], [9, 9, 9, 200]], true);
+        let wall = || texture("wall", &[[9, 9, 9, 255]; 2], false);
+        let mask = || texture("mask", &[[0, 0, 0, 255], [255, 255, 255, 255]], false);
+        composed(leaf(), leaf(), "leaf", &[0, 200]);
+        composed(leaf(), None, "leaf|opaque", &[255, 255]);
+        composed(wall(), None, "wall", &[255, 255]);
+        composed(wall(), mask(), "wall|mask", &[0, 255]);
+        composed(wall(), leaf(), "wall|leaf", &[0, 200]);
+        composed(None, mask(), "|mask", &[0, 255]);
+        assert!(color_with_opacity(None, None).is_none());
+    }
+
+    #[test]
+    fn an_image_that_would_fill_the_memory_is_refused() {
+        let mut png = Cursor::new(Vec::new());
+        image::GrayImage::new(LARGEST_SIDE + 1, 1).write_to(&mut png, ImageFormat::Png).expect("memory is writable");
+        let error = decode(Path::new("wide.png"), png.into_inner()).expect_err("it is too wide");
+        assert!(matches!(error, image::ImageError::Limits(_)), "{error}");
+    }
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::pass::Surface;
-use crate::interpreter::material::Material;
+use crate::interpreter::material::{Material, OpacityMode};
 use crate::scene::{Scene, SceneObject};
 
 /// Opacity (of the material, or material times texel) under which a surface is not there. Half-transparent surfaces
@@ -38,7 +38,12 @@ pub fn material_surfaces(scene: &Scene) -> Vec<Option<Surface>> {
 }
 
 fn surface(material: &Material, textures: &[(Arc<str>, Arc<image::RgbaImage>)], has_holes: &[bool]) -> Option<Surface> {
-    if material.opacity < OPAQUE_FROM {
+    let there_from = match material.opacity_mode {
+        OpacityMode::Blend => OPAQUE_FROM,
+        OpacityMode::Mask => material.opacity_cutoff,
+        OpacityMode::Opaque => 0.0,
+    };
+    if material.opacity < there_from {
         return None;
     }
     let texture = material.colormap.as_ref().and_then(|n| textures.binary_search_by(|(name, _)| name.cmp(n)).ok());

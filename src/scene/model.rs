@@ -82,17 +82,35 @@ pub struct TriMesh {
     pub normals: Vec<Vec3>,
     /// Texture coordinates of uv set 0, one per position (zero where the face has none).
     pub uvs: Vec<Vec2>,
+    /// Other uv sets that a material's texture layers use, sorted by set: one value per position, that of set 0 where the
+    /// face has none of its own.
+    pub uv_sets: Vec<(u8, Vec<Vec2>)>,
     pub triangles: Vec<[u32; 3]>,
     /// In order, covering all triangles.
     pub groups: Vec<Group>,
 }
 
 impl TriMesh {
+    /// The texture coordinates of a set, or those of set 0 that stand for it.
+    pub fn uv_set(&self, set: u8) -> &[Vec2] {
+        self.uv_sets.iter().find(|(s, _)| *s == set).map_or(&self.uvs, |(_, uvs)| uvs)
+    }
+
+    /// Puts the sets of another mesh behind these; call it before the vertices are joined.
+    pub fn join_uv_sets(&mut self, other: &TriMesh) {
+        let mut sets: Vec<u8> = self.uv_sets.iter().chain(&other.uv_sets).map(|(set, _)| *set).collect();
+        sets.sort_unstable();
+        sets.dedup();
+        let joined = |set: u8| (set, [self.uv_set(set), other.uv_set(set)].concat());
+        self.uv_sets = sets.into_iter().map(joined).collect();
+    }
+
     /// Adds the triangles of another mesh whose groups number the same materials.
     pub fn append(&mut self, other: &TriMesh) {
         let (vertices, triangles) = (self.positions.len() as u32, self.triangles.len() as u32);
         self.positions.extend_from_slice(&other.positions);
         self.normals.extend_from_slice(&other.normals);
+        self.join_uv_sets(other);
         self.uvs.extend_from_slice(&other.uvs);
         self.triangles.extend(other.triangles.iter().map(|t| t.map(|i| vertices + i)));
         self.groups.extend(other.groups.iter().map(|g| Group { first: triangles + g.first, ..*g }));

@@ -3,27 +3,37 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use crate::interpreter::material::Material;
+use crate::interpreter::material::{MapLayer, MapTransform, Material, OpacityMode, TextureMap};
 
 /// What makes two materials the same, in an order: exact bits of numbers, names as text.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord)]
 struct Key {
     name: Arc<str>,
-    numbers: [u64; 6],
-    colormap: Option<Arc<str>>,
+    numbers: [u64; 10],
+    modes: (OpacityMode, bool),
+    colormap: Option<(Arc<str>, [u64; 5])>,
+    maps: Vec<(MapLayer, Arc<str>, [u64; 5])>,
     other: Vec<(Arc<str>, Arc<str>)>,
 }
 
 impl Key {
     fn new(m: &Material) -> Self {
-        let [r, g, b] = m.color;
+        let ([r, g, b], [er, eg, eb]) = (m.color, m.emissive);
+        let numbers = [r, g, b, m.opacity, m.roughness, m.metallic, er, eg, eb, m.opacity_cutoff];
+        let map = |map: &TextureMap| (map.layer, map.path.clone(), bits(&map.transform));
         Key {
             name: m.name.clone(),
-            numbers: [r, g, b, m.opacity, m.roughness, m.metallic].map(f64::to_bits),
-            colormap: m.colormap.clone(),
+            numbers: numbers.map(f64::to_bits),
+            modes: (m.opacity_mode, m.double_sided),
+            colormap: m.colormap.clone().map(|path| (path, bits(&m.colormap_transform))),
+            maps: m.maps.iter().map(map).collect(),
             other: m.other.clone(),
         }
     }
+}
+
+fn bits(t: &MapTransform) -> [u64; 5] {
+    [t.scale[0], t.scale[1], t.offset[0], t.offset[1], t.rotation].map(f64::to_bits)
 }
 
 /// Collects materials.

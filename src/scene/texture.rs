@@ -206,6 +206,13 @@ mod tests {
     use super::*;
 
     #[test]
+    fn rules_know_the_built_in_textures() {
+        use crate::interpreter::assets::{BUILTIN_IMAGES, builtin_image};
+        assert!(builtin_names().eq(BUILTIN_IMAGES.iter().copied()));
+        assert_eq!(builtin_image("builtin:brick").map(|info| info.width), Some(SIZE));
+    }
+
+    #[test]
     fn every_tile_repeats_without_a_seam() {
         for name in builtin_names() {
             let tile = builtin(name).expect("listed names can be painted");

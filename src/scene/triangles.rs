@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use glam::{DVec3, Vec2};
+use glam::{DVec2, DVec3, Vec2};
 
 use crate::geometry::triangulate::triangulate_face;
 use crate::geometry::{Face, Mesh};
@@ -24,6 +24,10 @@ impl Builder {
         if triangles.is_empty() || normal == glam::Vec3::ZERO {
             return;
         }
+        // Layers without any texture coordinates are ignored (reference 3.10).
+        let bare = face.uvs.is_empty() && (material.colormap.is_some() || !material.maps.is_empty());
+        let plain = bare.then(|| Arc::new(Material { colormap: None, maps: Vec::new(), ..(**material).clone() }));
+        let material = plain.as_ref().unwrap_or(material);
         let uvs = face.uv(0);
         let corner_normal = |corner: usize| face.normals.get(corner).map_or(normal, |n| n.as_vec3());
         let run = self.run(material);
@@ -34,6 +38,8 @@ impl Builder {
             run.normals.push(corner_normal(corner));
             run.uvs.push(uvs.map_or(Vec2::ZERO, |uvs| uvs[corner].as_vec2()));
         }
+        let sets = material.maps.iter().map(|map| map.layer as u8);
+        add_uv_sets(run, sets.filter_map(|set| Some((set, face.uv(set)?))));
         run.triangles.extend(triangles.iter().map(|t| t.map(|corner| first + corner)));
     }
 
@@ -57,6 +63,7 @@ impl Builder {
             }
             let (offset, first) = (mesh.positions.len() as u32, mesh.triangles.len() as u32);
             mesh.groups.push(Group { material: materials.len() as u32, first, count: run.triangles.len() as u32 });
+            mesh.join_uv_sets(&run);
             mesh.positions.extend(run.positions);
             mesh.normals.extend(run.normals);
             mesh.uvs.extend(run.uvs);
@@ -64,6 +71,23 @@ impl Builder {
             materials.push(material);
         }
         (mesh, materials)
+    }
+}
+
+/// Adds the sets of a face whose corners were just added; those it lacks have the coordinates of set 0.
+fn add_uv_sets<'f>(run: &mut TriMesh, sets: impl Iterator<Item = (u8, &'f [DVec2])>) {
+    let count = run.uvs.len();
+    for (set, uvs) in sets {
+        if run.uv_sets.iter().all(|(known, _)| *known != set) {
+            run.uv_sets.push((set, run.uvs[..count - uvs.len()].to_vec()));
+            run.uv_sets.sort_by_key(|(set, _)| *set);
+        }
+        let own = run.uv_sets.iter_mut().find(|(known, _)| *known == set).map(|(_, own)| own);
+        own.expect("it is there now").extend(uvs.iter().map(|uv| uv.as_vec2()));
+    }
+    for (_, own) in &mut run.uv_sets {
+        let from = own.len();
+        own.extend_from_slice(&run.uvs[from..]);
     }
 }
 

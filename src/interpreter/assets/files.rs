@@ -69,6 +69,11 @@ impl FileAssets {
         }
     }
 
+    /// The folders that may be read.
+    pub fn access(&self) -> &Access {
+        &self.access
+    }
+
     /// Every file that was read, sorted.
     pub fn files(&self) -> Vec<PathBuf> {
         self.read.lock().unwrap_or_else(PoisonError::into_inner).iter().cloned().collect()

@@ -5,20 +5,20 @@
 //! extras; separate normals; positions in metres (x east, y up, z south) as f32 about the node's translation, so
 //! that precision does not depend on where the feature lies.
 
+use std::collections::BTreeMap;
 use std::io::Cursor;
 use std::sync::Arc;
 
 use gltf::json::accessor::{ComponentType, GenericComponentType, Type};
 use gltf::json::buffer::{Stride, Target, View};
 use gltf::json::extras::RawValue;
-use gltf::json::material::{AlphaCutoff, AlphaMode, PbrBaseColorFactor, PbrMetallicRoughness, StrengthFactor};
 use gltf::json::mesh::{Mode, Primitive, Semantic};
-use gltf::json::texture::{Info, MagFilter, MinFilter, Sampler, WrappingMode};
+use gltf::json::texture::{MagFilter, MinFilter, Sampler, WrappingMode};
 use gltf::json::validation::{Checked, USize64};
 use gltf::json::{self, Index, Root};
 use image::RgbaImage;
 
-use crate::interpreter::material::Material;
+use super::material::{TRANSFORM_EXTENSION, Textures, uv_slots};
 use crate::scene::{Group, Presence, Scene, SceneObject, TriMesh};
 
 /// Why a scene could not be written as glTF.
@@ -62,11 +62,16 @@ pub fn to_glb(scene: &Scene, copyright: &str) -> Result<Vec<u8>, ExportError> {
         ..Root::default()
     };
     let mut data = Data::default();
-    textures(scene, &mut root, &mut data)?;
-    root.materials = scene.materials.iter().map(|m| material(m, scene)).collect();
+    let slots = uv_slots(scene);
+    let mut made = Textures::new(scene);
+    root.materials = scene.materials.iter().zip(&slots).map(|(m, slots)| made.material(m, slots)).collect();
+    if made.transformed {
+        root.extensions_used.push(TRANSFORM_EXTENSION.to_owned());
+    }
+    textures(scene, &made.made, &mut root, &mut data)?;
     let mut states = [("before", Vec::new()), ("after", Vec::new())];
     for object in scene.objects.iter().filter(|o| !o.mesh.triangles.is_empty()) {
-        let node = node(object, &mut root, &mut data);
+        let node = node(object, &slots, &mut root, &mut data);
         for (list, absent) in states.iter_mut().zip([Presence::AfterOnly, Presence::BeforeOnly]) {
             if object.presence != absent {
                 list.1.push(node);
@@ -82,8 +87,15 @@ fn gltf_scene(name: &str, nodes: Vec<Index<json::Node>>) -> json::Scene {
     json::Scene { extensions: None, extras: None, name: Some(name.to_owned()), nodes }
 }
 
-fn textures(scene: &Scene, root: &mut Root, data: &mut Data) -> Result<(), ExportError> {
-    if scene.textures.is_empty() {
+fn textures(
+    scene: &Scene,
+    made: &[(Arc<str>, RgbaImage)],
+    root: &mut Root,
+    data: &mut Data,
+) -> Result<(), ExportError> {
+    let own = scene.textures.iter().map(|(name, pixels)| (name, &**pixels));
+    let all: Vec<(&Arc<str>, &RgbaImage)> = own.chain(made.iter().map(|(name, pixels)| (name, pixels))).collect();
+    if all.is_empty() {
         return Ok(());
     }
     root.samplers.push(Sampler {
@@ -95,7 +107,7 @@ fn textures(scene: &Scene, root: &mut Root, data: &mut Data) -> Result<(), Expor
         extensions: None,
         extras: None,
     });
-    for (number, (name, pixels)) in scene.textures.iter().enumerate() {
+    for (number, (name, pixels)) in all.into_iter().enumerate() {
         data.images.push(png(name, pixels)?);
         root.images.push(json::Image {
             buffer_view: Some(Index::new(FIRST_IMAGE + number as u32)),
@@ -124,36 +136,7 @@ fn png(name: &Arc<str>, pixels: &RgbaImage) -> Result<Vec<u8>, ExportError> {
     Ok(out.into_inner())
 }
 
-fn material(m: &Material, scene: &Scene) -> json::Material {
-    let [r, g, b] = m.color.map(|c| srgb_to_linear(c) as f32);
-    let texture = m.colormap.as_ref().and_then(|name| scene.textures.iter().position(|(n, _)| n == name));
-    let translucent = m.opacity < 1.0;
-    json::Material {
-        name: (!m.name.is_empty()).then(|| m.name.to_string()),
-        alpha_mode: Checked::Valid(if translucent { AlphaMode::Blend } else { AlphaMode::Opaque }),
-        alpha_cutoff: None::<AlphaCutoff>,
-        pbr_metallic_roughness: PbrMetallicRoughness {
-            base_color_factor: PbrBaseColorFactor([r, g, b, m.opacity as f32]),
-            base_color_texture: texture.map(|index| Info {
-                index: Index::new(index as u32),
-                tex_coord: 0,
-                extensions: None,
-                extras: None,
-            }),
-            metallic_factor: StrengthFactor(m.metallic as f32),
-            roughness_factor: StrengthFactor(m.roughness as f32),
-            ..PbrMetallicRoughness::default()
-        },
-        ..json::Material::default()
-    }
-}
-
-/// IEC 61966-2-1.
-fn srgb_to_linear(c: f64) -> f64 {
-    if c <= 0.04045 { c / 12.92 } else { libm::pow((c + 0.055) / 1.055, 2.4) }
-}
-
-fn node(object: &SceneObject, root: &mut Root, data: &mut Data) -> Index<json::Node> {
+fn node(object: &SceneObject, slots: &[Vec<u8>], root: &mut Root, data: &mut Data) -> Index<json::Node> {
     let mesh = &object.mesh;
     let origin = mesh.positions[0].as_vec3();
     let (positions, count) = (data.positions.len(), mesh.positions.len());
@@ -168,8 +151,7 @@ fn node(object: &SceneObject, root: &mut Root, data: &mut Data) -> Index<json::N
     }
     let normals = data.normals.len();
     data.normals.extend(mesh.normals.iter().flat_map(|n| n.to_array()).flat_map(f32::to_le_bytes));
-    let uvs = data.uvs.len();
-    data.uvs.extend(mesh.uvs.iter().flat_map(|uv| [uv.x, 1.0 - uv.y]).flat_map(f32::to_le_bytes));
+    let coordinates = coordinates(mesh, root, data);
 
     let mut positions = accessor(POSITIONS, positions, count, Type::Vec3, ComponentType::F32);
     positions.min = Some(serde_json::json!(least));
@@ -177,10 +159,16 @@ fn node(object: &SceneObject, root: &mut Root, data: &mut Data) -> Index<json::N
     let attributes = [
         (Semantic::Positions, root.push(positions)),
         (Semantic::Normals, root.push(accessor(NORMALS, normals, count, Type::Vec3, ComponentType::F32))),
-        (Semantic::TexCoords(0), root.push(accessor(UVS, uvs, count, Type::Vec2, ComponentType::F32))),
     ];
+    let of = |set: u8| coordinates.get(&set).unwrap_or(&coordinates[&0]);
     let primitives = mesh.groups.iter().filter(|g| g.count > 0).map(|group| Primitive {
-        attributes: attributes.iter().map(|(s, a)| (Checked::Valid(s.clone()), *a)).collect(),
+        attributes: (attributes.iter().cloned())
+            .chain((0..).zip(std::iter::once(&0).chain(&slots[group.material as usize])).map(|(slot, set)| {
+                // Two names of one set would be one accessor named twice, which is allowed.
+                (Semantic::TexCoords(slot), *of(*set))
+            }))
+            .map(|(semantic, accessor)| (Checked::Valid(semantic), accessor))
+            .collect(),
         indices: Some(indices(mesh, group, root, data)),
         material: Some(Index::new(group.material)),
         mode: Checked::Valid(Mode::Triangles),
@@ -198,6 +186,19 @@ fn node(object: &SceneObject, root: &mut Root, data: &mut Data) -> Index<json::N
         name: Some(name),
         ..json::Node::default()
     })
+}
+
+/// Accessors of the texture coordinates by uv set; v runs down.
+fn coordinates(mesh: &TriMesh, root: &mut Root, data: &mut Data) -> BTreeMap<u8, Index<json::Accessor>> {
+    let others = mesh.uv_sets.iter().map(|(set, uvs)| (*set, uvs));
+    let sets: Vec<(u8, &Vec<glam::Vec2>)> = std::iter::once((0, &mesh.uvs)).chain(others).collect();
+    let mut out = BTreeMap::new();
+    for (set, uvs) in sets {
+        let start = data.uvs.len();
+        data.uvs.extend(uvs.iter().flat_map(|uv| [uv.x, 1.0 - uv.y]).flat_map(f32::to_le_bytes));
+        out.insert(set, root.push(accessor(UVS, start, uvs.len(), Type::Vec2, ComponentType::F32)));
+    }
+    out
 }
 
 fn indices(mesh: &TriMesh, group: &Group, root: &mut Root, data: &mut Data) -> Index<json::Accessor> {
