@@ -52,7 +52,9 @@ pub struct Derivation<'p> {
     vertices: usize,
     expression_depth: u32,
     /// Where in the tree the running rule is, for messages about limits.
-    running: Option<Arc<Step>>,
+    pub running: Option<Arc<Step>>,
+    /// Blocks within blocks that are being derived completely.
+    blocks: u32,
 }
 
 /// A shape waiting for its rule.
@@ -135,6 +137,7 @@ impl<'p> Derivation<'p> {
             vertices: 0,
             expression_depth: 0,
             running: None,
+            blocks: 0,
         }
     }
 
@@ -195,9 +198,27 @@ impl<'p> Derivation<'p> {
     }
 
     fn check_pending(&mut self, rule: RuleId) -> Outcome<()> {
+        let span = self.program.rule(rule).span;
+        self.check_waiting(self.pending.len(), span)
+    }
+
+    /// Starts to derive a block inside a rule.
+    pub fn enter_block(&mut self, span: Span) -> Outcome<()> {
+        self.blocks += 1;
+        let limit = self.limits.max_blocks;
+        if self.blocks > limit {
+            return self.stop("cga::limit-depth", span, format!("`inline` and booleans go deeper than {limit}"));
+        }
+        Ok(())
+    }
+
+    pub fn leave_block(&mut self) {
+        self.blocks -= 1;
+    }
+
+    pub fn check_waiting(&mut self, waiting: usize, span: Span) -> Outcome<()> {
         let limit = self.limits.max_pending;
-        if self.pending.len() > limit {
-            let span = self.program.rule(rule).span;
+        if waiting > limit {
             return self.stop("cga::limit-shapes", span, format!("more than {limit} shapes wait at the same time"));
         }
         Ok(())

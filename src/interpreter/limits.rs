@@ -5,6 +5,8 @@
 pub struct Limits {
     /// Rules within rules.
     pub max_depth: u32,
+    /// Blocks of `inline`, `modify` and booleans within each other.
+    pub max_blocks: u32,
     /// Shapes made, leaves included.
     pub max_shapes: usize,
     /// Shapes waiting at the same time.
@@ -23,6 +25,7 @@ impl Default for Limits {
     fn default() -> Self {
         Limits {
             max_depth: 1000,
+            max_blocks: 32,
             max_shapes: 300_000,
             max_pending: 100_000,
             max_vertices: 2_000_000,

@@ -137,12 +137,22 @@ impl<'p> Derivation<'p> {
                 let reference = copy.scope;
                 self.execute(inner, &mut copy, &reference, body)
             }
+            Item::Inline { .. } | Item::Boolean { .. } => self.execute_inside(item, place, shape, body),
             other => {
                 let seed = shape.seed.part(PIECES + place);
                 let pieces = operations::pieces(self, other, &Env::new(shape, &body.slots, place))?;
                 self.execute_pieces(pieces, seed, body)
             }
         }
+    }
+
+    /// Runs a block on a shape; what it makes is given back, and no child of the running rule.
+    pub fn execute_apart(&mut self, block: &'p Successor, shape: &mut Shape, body: &mut Body) -> Outcome<Vec<Task>> {
+        let children = std::mem::take(&mut body.children);
+        let reference = shape.scope;
+        let done = self.execute(block, shape, &reference, body);
+        let made = std::mem::replace(&mut body.children, children);
+        done.map(|()| made)
     }
 
     /// Runs each piece's block on the piece.

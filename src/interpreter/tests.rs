@@ -24,6 +24,7 @@ mod scatter;
 mod scenes;
 mod selectors;
 mod setbacks;
+mod solids;
 mod split_sizes;
 mod split_uv;
 mod splits;

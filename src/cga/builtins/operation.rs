@@ -62,11 +62,11 @@ operations! {
     Insert "i" Evaluated [
         "S {yUp zUp}? {alignSizeAndPosition keepSizeAndPosition keepSizeAlignPosition}? {numericalCleanup noCleanup}?"
     ]
-    Inline "inline" NotYet ["{append unify recompose}?"]
+    Inline "inline" Evaluated ["{append unify recompose}?"]
     InnerRect "innerRect" Evaluated [""]
     InnerRectangle "innerRectangle" Evaluated ["{scope edge}"]
     InsertAlongUv "insertAlongUV" Evaluated ["F S F {scope.y vertex.normal}? {alignPosition keepPosition}?"]
-    Intersect "intersect" NotYet [""]
+    Intersect "intersect" Evaluated [""]
     Label "label" Evaluated ["S"]
     Mirror "mirror" Evaluated ["B B B"]
     MirrorScope "mirrorScope" Evaluated ["B B B"]
@@ -122,7 +122,7 @@ operations! {
     Split "split" Evaluated ["{x y z} {adjust noAdjust}?", "{u v} {uvSpace unitSpace} F"]
     SplitAndSetbackPerimeter "splitAndSetbackPerimeter" Evaluated ["F'", "F' F B[]"]
     SplitArea "splitArea" Evaluated ["{x y z} {adjust noAdjust}?"]
-    Subtract "subtract" NotYet [""]
+    Subtract "subtract" Evaluated [""]
     T "t" Evaluated ["F' F' F'"]
     Tag "tag" Evaluated ["S {auto faces edges vertices}?"]
     Taper "taper" Evaluated ["F"]
@@ -131,7 +131,7 @@ operations! {
     Translate "translate" Evaluated ["{abs rel} {scope pivot object world} F F F"]
     TranslateUv "translateUV" Evaluated ["F F F"]
     Trim "trim" Evaluated [""]
-    Union "union" NotYet [""]
+    Union "union" Evaluated [""]
 }
 
 impl Operation {

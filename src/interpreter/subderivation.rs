@@ -1,0 +1,130 @@
+//! Rules derived inside a rule (reference 4.16): `inline`, `union`, `subtract`, `intersect`, `modify`. In: a block and
+//! the current shape. Out: the shapes its derivation ends in, merged to one that takes the current shape's place.
+//!
+//! What a block makes is no part of the tree of shapes. Its random numbers come from the current shape's seed and the
+//! block's place, so operands do not change each other's draws (reference 4.16.3). Reports and prints count.
+
+use super::derivation::{Derivation, Symbol, Task};
+use super::limits::Outcome;
+use super::merging::{Dressed, appended, take_common_attributes};
+use super::seed::Seed;
+use super::shape::Shape;
+use super::solids;
+use super::successor::Body;
+use crate::cga::program::{BooleanOperator, InlineMode, Item, Successor};
+use crate::geometry::solid::Operator;
+use crate::source::Span;
+
+/// Kinds of seeds below a shape's, for the first and the second block of an item.
+const BLOCK: [u64; 2] = [5 << 40, 6 << 40];
+
+impl<'p> Derivation<'p> {
+    /// Runs an item that derives a block completely and works on with the result.
+    pub fn execute_inside(&mut self, item: &'p Item, place: u64, shape: &mut Shape, body: &mut Body) -> Outcome<()> {
+        let seeds = BLOCK.map(|kind| shape.seed.part(kind + place));
+        let span = match item {
+            Item::Inline { mode, body: block, span } => {
+                let pieces = self.derive_block(block, shape, seeds[0], body, *span)?;
+                self.inline(*mode, pieces, shape, *span);
+                *span
+            }
+            Item::Boolean { operator, left, right, span } => {
+                let left = self.derive_block(left, shape, seeds[0], body, *span)?;
+                let right = self.derive_block(right, shape, seeds[1], body, *span)?;
+                self.boolean(*operator, left, right, shape, *span);
+                *span
+            }
+            _ => return Ok(()),
+        };
+        self.count_vertices(shape.form.mesh.positions.len(), span)
+    }
+
+    fn inline(&mut self, mode: InlineMode, mut pieces: Vec<Shape>, shape: &mut Shape, span: Span) {
+        if pieces.len() == 1 && mode != InlineMode::Unify {
+            let (seed, seedian) = (shape.seed, shape.seedian);
+            *shape = pieces.remove(0);
+            (shape.seed, shape.seedian) = (seed, seedian);
+            return;
+        }
+        let merged = merged(shape, &pieces);
+        let merged = if mode == InlineMode::Unify { solids::unified(self, merged, span) } else { merged };
+        take_common_attributes(shape, &pieces);
+        shape.appearance = merged.appearance;
+        shape.replace(std::sync::Arc::unwrap_or_clone(merged.form));
+    }
+
+    fn boolean(
+        &mut self,
+        operator: BooleanOperator,
+        left: Vec<Shape>,
+        right: Vec<Shape>,
+        shape: &mut Shape,
+        span: Span,
+    ) {
+        let a = solids::unified(self, merged(shape, &left), span);
+        let b = solids::unified(self, merged(shape, &right), span);
+        let operator = match operator {
+            BooleanOperator::Union => Operator::Union,
+            BooleanOperator::Subtract => Operator::Subtract,
+            BooleanOperator::Intersect => Operator::Intersect,
+        };
+        let result = solids::combined(self, &a, &b, operator, span);
+        take_common_attributes(shape, &left);
+        shape.appearance = result.appearance;
+        shape.replace(std::sync::Arc::unwrap_or_clone(result.form));
+    }
+
+    /// Runs a block on a copy of the shape until only leaves are left; leaves without geometry are dropped.
+    pub fn derive_block(
+        &mut self,
+        block: &'p Successor,
+        shape: &Shape,
+        seed: Seed,
+        body: &mut Body,
+        span: Span,
+    ) -> Outcome<Vec<Shape>> {
+        self.enter_block(span)?;
+        let mut copy = shape.clone();
+        copy.seed = seed;
+        self.begin_trail(&mut copy);
+        let tasks = self.execute_apart(block, &mut copy, body)?;
+        let leaves = self.finish_tasks(tasks, span)?;
+        self.leave_block();
+        Ok(leaves)
+    }
+
+    /// Derives tasks until only leaves are left.
+    pub fn finish_tasks(&mut self, mut pending: Vec<Task>, span: Span) -> Outcome<Vec<Shape>> {
+        let running = self.running.clone();
+        let mut leaves = Vec::new();
+        pending.reverse();
+        while let Some(mut task) = pending.pop() {
+            match &task.symbol {
+                Symbol::Leaf(_) => {
+                    task.shape.bake();
+                    if !task.shape.form.is_empty() {
+                        leaves.push(task.shape);
+                    }
+                }
+                Symbol::Rule(rule) => {
+                    let rule = *rule;
+                    self.running = Some(task.step.clone());
+                    let children = self.derive_rule(rule, task)?;
+                    pending.extend(children.into_iter().rev());
+                    self.check_waiting(pending.len(), span)?;
+                }
+            }
+        }
+        self.running = running;
+        Ok(leaves)
+    }
+}
+
+/// All pieces behind each other; without pieces nothing, shown as the shape is.
+fn merged(shape: &Shape, pieces: &[Shape]) -> Dressed {
+    if pieces.is_empty() {
+        return Dressed::empty(shape);
+    }
+    let dressed = |p: &Shape| Dressed { form: p.form.clone(), appearance: p.appearance.clone() };
+    appended(&pieces.iter().map(dressed).collect::<Vec<_>>())
+}
