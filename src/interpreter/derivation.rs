@@ -13,6 +13,7 @@ use super::leaves::Leaves;
 use super::limits::{Limits, Outcome, Stop};
 use super::outline::Outline;
 use super::placement::Frame;
+use super::provenance::Sources;
 use super::reports::Reports;
 use super::shape::Shape;
 use super::start;
@@ -55,6 +56,8 @@ pub struct Derivation<'p> {
     pub running: Option<Arc<Step>>,
     /// Blocks within blocks that are being derived completely.
     blocks: u32,
+    /// Of the shape that is being recomposed.
+    pub sources: Option<Sources>,
 }
 
 /// A shape waiting for its rule.
@@ -138,6 +141,7 @@ impl<'p> Derivation<'p> {
             expression_depth: 0,
             running: None,
             blocks: 0,
+            sources: None,
         }
     }
 

@@ -57,6 +57,8 @@ pub struct Shape {
     pub trim_horizontal: bool,
     pub trim_vertical: bool,
     pub trim_source: Option<TrimSource>,
+    /// Sources of the form's vertices while a shape is recomposed.
+    pub provenance: Option<Arc<[u32]>>,
 }
 
 /// Extents below this share of the largest one, plus the noise of the coordinates, are flat.

@@ -124,6 +124,7 @@ fn initial_shape(mesh: Mesh, run: &Derivation) -> Shape {
         trim_horizontal: false,
         trim_vertical: true,
         trim_source: None,
+        provenance: None,
     }
 }
 

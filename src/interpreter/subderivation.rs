@@ -5,8 +5,10 @@
 //! block's place, so operands do not change each other's draws (reference 4.16.3). Reports and prints count.
 
 use super::derivation::{Derivation, Symbol, Task};
+use super::environment::Env;
 use super::limits::Outcome;
 use super::merging::{Dressed, appended, take_common_attributes};
+use super::operations::comp;
 use super::seed::Seed;
 use super::shape::Shape;
 use super::solids;
@@ -23,6 +25,25 @@ impl<'p> Derivation<'p> {
     pub fn execute_inside(&mut self, item: &'p Item, place: u64, shape: &mut Shape, body: &mut Body) -> Outcome<()> {
         let seeds = BLOCK.map(|kind| shape.seed.part(kind + place));
         let span = match item {
+            Item::Inline { mode: InlineMode::Recompose, body: block, span } => {
+                let outer = self.begin_recomposition(shape);
+                let pieces = self.derive_block(block, shape, seeds[0], body, *span)?;
+                self.finish_recomposition(outer, pieces, shape);
+                *span
+            }
+            Item::Modify { component, keep_axes, selectors, span } => {
+                let outer = self.begin_recomposition(shape);
+                let env = Env::new(shape, &body.slots, place);
+                let (mut pieces, rest) = comp::pieces_and_rest(self, *component, *keep_axes, selectors, *span, &env)?;
+                self.trace_pieces(item, shape, &mut pieces);
+                self.enter_block(*span)?;
+                let tasks = self.execute_pieces_apart(pieces, seeds[0], body)?;
+                let mut leaves = self.finish_tasks(tasks, *span)?;
+                self.leave_block();
+                leaves.push(self.part(shape, &rest));
+                self.finish_recomposition(outer, leaves, shape);
+                *span
+            }
             Item::Inline { mode, body: block, span } => {
                 let pieces = self.derive_block(block, shape, seeds[0], body, *span)?;
                 self.inline(*mode, pieces, shape, *span);
@@ -46,6 +67,7 @@ impl<'p> Derivation<'p> {
             (shape.seed, shape.seedian) = (seed, seedian);
             return;
         }
+        shape.provenance = None;
         let merged = merged(shape, &pieces);
         let merged = if mode == InlineMode::Unify { solids::unified(self, merged, span) } else { merged };
         take_common_attributes(shape, &pieces);
@@ -61,6 +83,7 @@ impl<'p> Derivation<'p> {
         shape: &mut Shape,
         span: Span,
     ) {
+        shape.provenance = None;
         let a = solids::unified(self, merged(shape, &left), span);
         let b = solids::unified(self, merged(shape, &right), span);
         let operator = match operator {

@@ -103,7 +103,9 @@ impl<'p> Derivation<'p> {
             Item::Operation { operation, args, span } => {
                 let args = self.eval_args(args, &Env::new(shape, &body.slots, place))?;
                 let before = Arc::as_ptr(&shape.form);
+                let edited = self.before_edit(shape);
                 operations::apply(self, *operation, &args, *span, shape, reference)?;
+                self.after_edit(edited, *operation, shape);
                 if !std::ptr::eq(before, Arc::as_ptr(&shape.form)) {
                     self.count_vertices(shape.form.mesh.positions.len(), *span)?;
                 }
@@ -129,7 +131,10 @@ impl<'p> Derivation<'p> {
                 self.eval_values(args, place, shape, body)?;
                 self.add_child(Symbol::Leaf(symbol.clone()), Vec::new(), place, shape, body, *span)
             }
-            Item::Discard => Ok(()),
+            Item::Discard => {
+                self.note_discarded(shape);
+                Ok(())
+            }
             Item::Group(inner) => {
                 let mut copy = shape.clone();
                 copy.seed = shape.seed.part(GROUP + place);
@@ -137,13 +142,24 @@ impl<'p> Derivation<'p> {
                 let reference = copy.scope;
                 self.execute(inner, &mut copy, &reference, body)
             }
-            Item::Inline { .. } | Item::Boolean { .. } => self.execute_inside(item, place, shape, body),
+            Item::Inline { .. } | Item::Boolean { .. } | Item::Modify { .. } => {
+                self.execute_inside(item, place, shape, body)
+            }
             other => {
                 let seed = shape.seed.part(PIECES + place);
-                let pieces = operations::pieces(self, other, &Env::new(shape, &body.slots, place))?;
+                let mut pieces = operations::pieces(self, other, &Env::new(shape, &body.slots, place))?;
+                self.trace_pieces(other, shape, &mut pieces);
                 self.execute_pieces(pieces, seed, body)
             }
         }
+    }
+
+    /// Runs the blocks of pieces; what they make is given back, and no child of the running rule.
+    pub fn execute_pieces_apart(&mut self, pieces: Pieces<'p>, seed: Seed, body: &mut Body) -> Outcome<Vec<Task>> {
+        let children = std::mem::take(&mut body.children);
+        let done = self.execute_pieces(pieces, seed, body);
+        let made = std::mem::replace(&mut body.children, children);
+        done.map(|()| made)
     }
 
     /// Runs a block on a shape; what it makes is given back, and no child of the running rule.

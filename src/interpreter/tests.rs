@@ -18,6 +18,7 @@ mod planar;
 mod planar_properties;
 mod properties;
 mod random;
+mod recomposition;
 mod reports;
 mod roofs;
 mod scatter;

@@ -70,7 +70,7 @@ operations! {
     Label "label" Evaluated ["S"]
     Mirror "mirror" Evaluated ["B B B"]
     MirrorScope "mirrorScope" Evaluated ["B B B"]
-    Modify "modify" NotYet ["{f e fe v fv g m h} {zUp noAlign}?"]
+    Modify "modify" Evaluated ["{f e fe v fv g m h} {zUp noAlign}?"]
     NormalizeUv "normalizeUV" Evaluated ["F {uv uvUniform u v} {separatePerFace collectiveAllFaces}"]
     Offset "offset" Evaluated ["F {all inside border}?"]
     PrimitiveCone "primitiveCone" Evaluated ["F?", "F F F"]

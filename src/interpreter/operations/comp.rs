@@ -1,6 +1,7 @@
 //! `comp` and the comp function (reference 4.1, 6.7). In: a selector block. Out: components as shapes in their own
 //! frames, or one value per component.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use super::super::derivation::Derivation;
@@ -29,6 +30,18 @@ pub fn pieces<'p>(
     span: Span,
     env: &Env,
 ) -> Outcome<Pieces<'p>> {
+    pieces_and_rest(run, component, keep_axes, selectors, span, env).map(|(pieces, _)| pieces)
+}
+
+/// As [`pieces`], with the faces that lie in none of them.
+pub fn pieces_and_rest<'p>(
+    run: &mut Derivation<'p>,
+    component: Component,
+    keep_axes: bool,
+    selectors: &'p [Selector],
+    span: Span,
+    env: &Env,
+) -> Outcome<(Pieces<'p>, Vec<usize>)> {
     let mut parent = env.shape.clone();
     parent.bake();
     let tests: Vec<Test> = selectors.iter().map(|s| Test { test: &s.test, text: &s.text }).collect();
@@ -51,7 +64,10 @@ pub fn pieces<'p>(
             out.push((shape, &selector.body));
         }
     }
-    Ok(out)
+    let taken = |i: &usize| owners[*i].is_some();
+    let taken: BTreeSet<usize> = (0..owners.len()).filter(taken).flat_map(|i| components.face_numbers(i)).collect();
+    let rest = (0..parent.form.mesh.faces.len()).filter(|f| !taken.contains(f)).collect();
+    Ok((out, rest))
 }
 
 fn grouped(

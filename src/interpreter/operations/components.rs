@@ -61,6 +61,13 @@ impl Components {
         self.parts.len()
     }
 
+    /// The faces that a component is made of; none for edges, vertices and holes.
+    pub fn face_numbers(&self, i: usize) -> impl Iterator<Item = usize> + '_ {
+        let is_of_faces = matches!(self.kind, Component::Faces | Component::Groups | Component::Materials);
+        let facets = if is_of_faces { self.facets(i) } else { &[] };
+        facets.iter().filter_map(face_of)
+    }
+
     /// What one component is made of: itself, or the faces of a group or material. Never empty.
     pub fn facets(&self, i: usize) -> &[Facet] {
         let end = self.parts.get(i + 1).map_or(self.facets.len(), |next| next.facets as usize);

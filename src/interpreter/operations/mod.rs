@@ -185,16 +185,15 @@ pub fn pieces<'p>(run: &mut Derivation<'p>, item: &'p Item, env: &Env) -> Outcom
         Item::PerimeterSplit { args, pattern, remainder, span } => {
             split_perimeter::pieces(run, args, pattern, remainder.as_deref(), *span, env)
         }
-        Item::Modify { span, .. } | Item::Inline { span, .. } | Item::Boolean { span, .. } => {
-            not_evaluated(run, "this form", *span);
-            Ok(Vec::new())
-        }
         Item::Operation { .. }
         | Item::Set { .. }
         | Item::Call { .. }
         | Item::Instantiate { .. }
         | Item::Leaf { .. }
         | Item::Discard
+        | Item::Inline { .. }
+        | Item::Boolean { .. }
+        | Item::Modify { .. }
         | Item::Group(_) => Ok(Vec::new()),
     }
 }
