@@ -49,8 +49,11 @@ pub fn steepest(shape: &Shape) -> (f64, DVec3) {
     best
 }
 
-/// Compass direction, clockwise from north (-z), degrees in [0, 360).
+/// Compass direction, clockwise from north (-z), degrees in [0, 360); 0 for what looks straight up or down.
 pub fn azimuth(normal: DVec3) -> f64 {
+    if normal.x == 0.0 && normal.z == 0.0 {
+        return 0.0;
+    }
     let angle = libm::atan2(normal.x, -normal.z).to_degrees().rem_euclid(360.0);
     if angle >= 360.0 { 0.0 } else { angle }
 }

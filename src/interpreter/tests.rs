@@ -1,6 +1,7 @@
 //! Rule texts derived end to end: the worked micro-tests of reference 10 and the facts of the compatibility notes.
 
 mod along_uv;
+mod component_properties;
 mod components;
 mod context;
 mod edges;
@@ -13,6 +14,7 @@ mod groups;
 mod imports;
 mod limits;
 mod materials;
+mod measures;
 mod normals;
 mod planar;
 mod planar_properties;
@@ -33,6 +35,7 @@ mod surfaces;
 mod tags;
 mod transforms;
 mod trims;
+mod uv;
 
 use std::sync::Arc;
 

@@ -1,5 +1,7 @@
 //! Questions about the current geometry (reference 6.6).
 
+use glam::DVec2;
+
 use super::super::derivation::Derivation;
 use super::super::measure;
 use super::super::shape::Shape;
@@ -7,7 +9,7 @@ use super::super::value::Value;
 use super::Input;
 use crate::cga::builtins::{Function as F, Word};
 
-pub fn call(run: &Derivation, function: F, input: &Input, shape: &Shape) -> Option<Value> {
+pub fn call(run: &mut Derivation, function: F, input: &Input, shape: &Shape) -> Option<Value> {
     let mesh = &shape.form.mesh;
     let number = |x: usize| Value::Float(x as f64);
     Some(match function {
@@ -34,22 +36,23 @@ pub fn call(run: &Derivation, function: F, input: &Input, shape: &Shape) -> Opti
         F::GeometryNVertices => number(measure::count_vertices(&shape.form)),
         F::GeometryNHoles => number(mesh.faces.iter().map(|f| f.holes.len()).sum()),
         F::GeometryHasUvs => {
-            let wanted = (input.len() > 0).then(|| input.uv_set(0));
+            let wanted = (input.len() > 0).then(|| input.uv_set(run, 0));
             Value::Bool(mesh.faces.iter().any(|f| match wanted {
-                Some(set) => f.uv(set).is_some(),
+                Some(set) => set.is_some_and(|set| f.uv(set).is_some()),
                 None => !f.uvs.is_empty(),
             }))
         }
         F::GeometryDu | F::GeometryDv => {
-            let set = input.uv_set(0);
-            let extent = match input.word(1) {
-                Some(Word::UnitSpace) => measure::uv_extent_in_metres(shape, set),
-                _ => measure::uv_range(&shape.form, set).map(|(low, high)| high - low).unwrap_or_default(),
+            let extent = match (input.uv_set(run, 0), input.word(1)) {
+                (None, _) => DVec2::ZERO,
+                (Some(set), Some(Word::UnitSpace)) => measure::uv_extent_in_metres(shape, set),
+                (Some(set), _) => measure::uv_range(&shape.form, set).map(|(low, high)| high - low).unwrap_or_default(),
             };
             Value::Float(if function == F::GeometryDu { extent.x } else { extent.y })
         }
         F::GeometryUMin | F::GeometryUMax | F::GeometryVMin | F::GeometryVMax => {
-            let (low, high) = measure::uv_range(&shape.form, input.uv_set(0)).unwrap_or_default();
+            let range = input.uv_set(run, 0).and_then(|set| measure::uv_range(&shape.form, set));
+            let (low, high) = range.unwrap_or_default();
             Value::Float(match function {
                 F::GeometryUMin => low.x,
                 F::GeometryUMax => high.x,

@@ -60,10 +60,14 @@ impl<'a> Input<'a> {
         self.value(i).map_or_else(|| "".into(), Value::to_text)
     }
 
-    /// A texture set number; others than 0..9 are 0.
-    pub fn uv_set(&self, i: usize) -> u8 {
+    /// A texture set number, 0 if absent; `None`, with a warning, for others than 0 to 9.
+    pub fn uv_set(&self, run: &mut Derivation, i: usize) -> Option<u8> {
         let x = self.float(i);
-        if (0.0..10.0).contains(&x) { x as u8 } else { 0 }
+        if x.fract() == 0.0 && (0.0..10.0).contains(&x) {
+            return Some(x as u8);
+        }
+        run.warn("cga::uv-set", self.span, || "texture coordinate sets are numbered 0 to 9".into());
+        None
     }
 }
 

@@ -82,6 +82,7 @@ pub fn project(run: &mut Derivation, args: &Args, shape: &mut Shape) {
     };
     shape.bake();
     let form = Arc::make_mut(&mut shape.form);
+    form.instanced = false;
     let Form { mesh, .. } = form;
     for face in &mut mesh.faces {
         let uv: CornerUvs = face.corners().map(|v| projection.uv(mesh.positions[v as usize])).collect();
@@ -96,9 +97,20 @@ fn put(uvs: &mut UvSets, set: u8, uv: CornerUvs) {
     }
 }
 
+/// The set an operation changes: argument `i`, with a warning if it is no set or no face has it.
+pub fn existing(run: &mut Derivation, args: &Args, i: usize, shape: &Shape) -> Option<u8> {
+    let set = args.uv_set(run, i)?;
+    if shape.form.mesh.faces.iter().any(|face| face.uv(set).is_some()) {
+        return Some(set);
+    }
+    run.warn("cga::no-uv", args.span, || format!("no face has texture set {set}: nothing changes"));
+    None
+}
+
 /// Changes every coordinate of a set; faces without it stay.
 pub fn edit(shape: &mut Shape, set: u8, change: impl Fn(DVec2) -> DVec2) {
     let form = Arc::make_mut(&mut shape.form);
+    form.instanced = false;
     for face in &mut form.mesh.faces {
         if let Some((_, uv)) = face.uvs.iter_mut().find(|(s, _)| *s == set) {
             uv.iter_mut().for_each(|p| *p = change(*p));
@@ -107,27 +119,29 @@ pub fn edit(shape: &mut Shape, set: u8, change: impl Fn(DVec2) -> DVec2) {
 }
 
 pub fn translate(run: &mut Derivation, args: &Args, shape: &mut Shape) {
-    let Some(set) = args.uv_set(run, 0) else { return };
+    let Some(set) = existing(run, args, 0, shape) else { return };
     let by = DVec2::new(args.float_or(run, 1, 0.0), args.float_or(run, 2, 0.0));
     edit(shape, set, |p| p + by);
 }
 
 pub fn scale(run: &mut Derivation, args: &Args, shape: &mut Shape) {
-    let Some(set) = args.uv_set(run, 0) else { return };
+    let Some(set) = existing(run, args, 0, shape) else { return };
     let by = DVec2::new(args.float_or(run, 1, 0.0), args.float_or(run, 2, 0.0));
     edit(shape, set, |p| p * by);
 }
 
 /// `rotateUV(set, angle)`: about (0, 0), counter-clockwise.
 pub fn rotate(run: &mut Derivation, args: &Args, shape: &mut Shape) {
-    let Some(set) = args.uv_set(run, 0) else { return };
+    let Some(set) = existing(run, args, 0, shape) else { return };
     let (sin, cos) = sin_cos_degrees(args.float_or(run, 1, 0.0));
     edit(shape, set, |p| DVec2::new(p.x * cos - p.y * sin, p.x * sin + p.y * cos));
 }
 
+/// `copyUV(from, to)`.
 pub fn copy(run: &mut Derivation, args: &Args, shape: &mut Shape) {
-    let (Some(from), Some(to)) = (args.uv_set(run, 0), args.uv_set(run, 1)) else { return };
+    let (Some(from), Some(to)) = (existing(run, args, 0, shape), args.uv_set(run, 1)) else { return };
     let form = Arc::make_mut(&mut shape.form);
+    form.instanced = false;
     for face in &mut form.mesh.faces {
         if let Some(uv) = face.uv(from).map(CornerUvs::from) {
             put(&mut face.uvs, to, uv);
@@ -135,8 +149,10 @@ pub fn copy(run: &mut Derivation, args: &Args, shape: &mut Shape) {
     }
 }
 
+/// `deleteUV(set)`: shapes without the set stay as they are.
 pub fn delete(run: &mut Derivation, args: &Args, shape: &mut Shape) {
     let Some(set) = args.uv_set(run, 0) else { return };
     let form = Arc::make_mut(&mut shape.form);
+    form.instanced = false;
     form.mesh.faces.iter_mut().for_each(|face| face.uvs.retain(|(s, _)| *s != set));
 }

@@ -9,7 +9,7 @@ use super::super::derivation::Derivation;
 use super::super::measure;
 use super::super::shape::Shape;
 use super::args::Args;
-use super::uv::{edit, tile_size};
+use super::uv::{edit, existing, tile_size};
 use crate::cga::builtins::Word;
 
 /// Least and greatest of the coordinates.
@@ -21,10 +21,11 @@ fn range<'a>(points: impl Iterator<Item = &'a DVec2>) -> Option<(DVec2, DVec2)> 
 
 /// `normalizeUV(set, mode, type)`.
 pub fn normalize(run: &mut Derivation, args: &Args, shape: &mut Shape) {
-    let Some(set) = args.uv_set(run, 0) else { return };
+    let Some(set) = existing(run, args, 0, shape) else { return };
     let mode = args.word(1).unwrap_or(Word::Uv);
     if args.word(2) == Some(Word::SeparatePerFace) {
         let form = Arc::make_mut(&mut shape.form);
+        form.instanced = false;
         for face in &mut form.mesh.faces {
             let Some((_, uv)) = face.uvs.iter_mut().find(|(s, _)| *s == set) else { continue };
             if let Some(range) = range(uv.iter()) {
@@ -52,7 +53,7 @@ fn normalized(p: DVec2, (low, high): (DVec2, DVec2), mode: Word) -> DVec2 {
 
 /// `tileUV(set, width, height)`: one unit becomes that many metres on the surface; 0 leaves an axis as it is.
 pub fn tile(run: &mut Derivation, args: &Args, shape: &mut Shape) {
-    let Some(set) = args.uv_set(run, 0) else { return };
+    let Some(set) = existing(run, args, 0, shape) else { return };
     let Some(range) = range(shape.form.mesh.faces.iter().filter_map(|f| f.uv(set)).flatten()) else { return };
     let metres = measure::uv_extent_in_metres(shape, set);
     let tile = DVec2::new(tile_size(run, args, 1, metres.x), tile_size(run, args, 2, metres.y));
