@@ -24,7 +24,7 @@ fn whole(body: &str, lot: &[(f64, f64)]) -> ShapeTree {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(16))]
+    #![proptest_config(ProptestConfig::with_cases(8))]
 
     #[test]
     fn every_component_comes_once(lot in lots(), body in 0..BODIES.len()) {
