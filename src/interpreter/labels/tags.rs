@@ -96,6 +96,31 @@ impl Tags {
         }
     }
 
+    /// The same tags after vertices became others; edges that fell together to a point lose theirs.
+    pub fn renumbered(&self, place: impl Fn(u32) -> u32) -> Tags {
+        let mut out = Tags { faces: self.faces.clone(), ..Tags::default() };
+        for (&[a, b], names) in &self.edges {
+            let [a, b] = [place(a), place(b)];
+            if a != b {
+                out.extend_edge([a, b], names);
+            }
+        }
+        self.vertices.iter().for_each(|(&v, names)| out.extend_vertex(place(v), names));
+        out
+    }
+
+    /// The same tags where face `i` is what face `sources[i]` was.
+    pub fn with_faces(&self, sources: &[usize]) -> Tags {
+        let mut out = Tags { edges: self.edges.clone(), vertices: self.vertices.clone(), ..Tags::default() };
+        sources.iter().enumerate().for_each(|(i, &source)| out.extend_face(i, self.face(source)));
+        out
+    }
+
+    /// Vertices that are tagged or end a tagged edge.
+    pub fn marked_vertices(&self) -> BTreeSet<u32> {
+        self.vertices.keys().copied().chain(self.edges.keys().flatten().copied()).collect()
+    }
+
     /// Removes the tags that match from components of these kinds.
     pub fn remove(&mut self, query: &Query, levels: &[Level]) {
         fn strip<K: Ord>(sets: &mut BTreeMap<K, TagSet>, query: &Query) {

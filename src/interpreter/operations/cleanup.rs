@@ -1,11 +1,14 @@
 //! `cleanupGeometry` (reference 4.12). In: what to clean and a tolerance 0..1. Out: close vertices
-//! merged, straight corners dropped, edges between coplanar faces dissolved, tiny and doubled faces gone.
+//! merged, straight corners dropped, edges between coplanar faces dissolved, tiny and doubled faces gone. Tagged edges
+//! and vertices stay, and so do edges between faces of different tags, groups or materials.
 
 use std::collections::BTreeMap;
 
 use glam::DVec3;
 
 use super::super::derivation::Derivation;
+use super::super::form::Form;
+use super::super::labels::Tags;
 use super::super::shape::Shape;
 use super::super::topology::Topology;
 use super::args::Args;
@@ -23,12 +26,14 @@ pub fn apply(run: &mut Derivation, args: &Args, shape: &mut Shape) {
     if form.mesh.faces.is_empty() {
         return;
     }
-    merge_vertices(&mut form.mesh, tolerance.max(NUMERICAL));
-    let angle = (10.0 * tolerance).max(NUMERICAL);
-    if matches!(word, Word::Edges | Word::All) && form.face_materials.is_empty() {
-        dissolve_edges(&mut form.mesh, angle);
+    let places = merge_vertices(&mut form.mesh, tolerance.max(NUMERICAL));
+    if let Some(labels) = &mut form.labels {
+        labels.tags = labels.tags.renumbered(|v| places[v as usize]);
     }
-    let materials = std::mem::take(&mut form.face_materials);
+    let angle = (10.0 * tolerance).max(NUMERICAL);
+    if matches!(word, Word::Edges | Word::All) {
+        dissolve_edges(&mut form, angle);
+    }
     let mut kept = Vec::with_capacity(form.mesh.faces.len());
     let least_area = if matches!(word, Word::Faces | Word::All) { tolerance.max(NUMERICAL * NUMERICAL) } else { 0.0 };
     for i in 0..form.mesh.faces.len() {
@@ -38,10 +43,10 @@ pub fn apply(run: &mut Derivation, args: &Args, shape: &mut Shape) {
             kept.push(i);
         }
     }
-    form.face_materials = materials;
     let mut cleaned = form.part(&kept);
     if matches!(word, Word::Vertices | Word::All) {
-        drop_straight_corners(&mut cleaned.mesh, angle);
+        let marked = cleaned.tags().map(Tags::marked_vertices).unwrap_or_default();
+        drop_straight_corners(&mut cleaned.mesh, angle, |v| marked.contains(&v));
     }
     let all: Vec<usize> = (0..cleaned.mesh.faces.len()).collect();
     let cleaned = cleaned.part(&all);
@@ -57,8 +62,9 @@ fn same_corners(a: &Face, b: &Face) -> bool {
     a.outer.len() == b.outer.len() && sorted(a) == sorted(b)
 }
 
-/// Vertices within `distance` become the first of them; corners that fall together become one.
-fn merge_vertices(mesh: &mut Mesh, distance: f64) {
+/// Vertices within `distance` become the first of them; corners that fall together become one. Returns what each
+/// vertex became.
+fn merge_vertices(mesh: &mut Mesh, distance: f64) -> Vec<u32> {
     let cell = |p: DVec3| (p / distance).floor().as_i64vec3().to_array();
     let mut cells: BTreeMap<[i64; 3], Vec<u32>> = BTreeMap::new();
     let mut place: Vec<u32> = Vec::with_capacity(mesh.positions.len());
@@ -76,6 +82,7 @@ fn merge_vertices(mesh: &mut Mesh, distance: f64) {
         face.outer.iter_mut().chain(face.holes.iter_mut().flatten()).for_each(|v| *v = place[*v as usize]);
         remove_corners(face, |ring, i| ring[i] == ring[(i + ring.len() - 1) % ring.len()] && ring.len() > 1);
     }
+    place
 }
 
 /// Removes the corners of every loop for which the test holds, with their texture coordinates.
@@ -100,10 +107,11 @@ pub fn remove_corners(face: &mut Face, test: impl Fn(&[u32], usize) -> bool) {
     face.normals.retain(|_| *flags.next().unwrap_or(&true));
 }
 
-/// Drops corners where every face that has the vertex runs straight on, except the ends of first edges.
-fn drop_straight_corners(mesh: &mut Mesh, angle: f64) {
+/// Drops corners where every face that has the vertex runs straight on, except the ends of first edges and those to
+/// keep.
+fn drop_straight_corners(mesh: &mut Mesh, angle: f64, keep: impl Fn(u32) -> bool) {
     let least = libm::sin(angle.to_radians());
-    let mut bent = vec![false; mesh.positions.len()];
+    let mut bent: Vec<bool> = (0..mesh.positions.len() as u32).map(keep).collect();
     for face in &mesh.faces {
         for ring in face.loops() {
             for (i, &v) in ring.iter().enumerate() {
@@ -120,28 +128,60 @@ fn drop_straight_corners(mesh: &mut Mesh, angle: f64) {
     }
 }
 
-/// Joins neighbouring faces without texture coordinates, normals and holes that lie in one plane and share one stretch of edge.
-fn dissolve_edges(mesh: &mut Mesh, angle: f64) {
+/// Joins neighbouring faces without texture coordinates, normals and holes that lie in one plane and share one stretch
+/// of edge.
+fn dissolve_edges(form: &mut Form, angle: f64) {
     let least = libm::cos(angle.to_radians());
+    // What each face that is left was.
+    let mut sources: Vec<usize> = (0..form.mesh.faces.len()).collect();
     let mut f = 0;
-    while f < mesh.faces.len() {
-        let topology = Topology::of(mesh);
+    while f < sources.len() {
+        let topology = Topology::of(&form.mesh);
+        let mesh = &form.mesh;
         let joined = topology.face_edges(f).iter().find_map(|&e| {
             let edge = &topology.edges[e as usize];
             let other = [Some(edge.first), edge.second].into_iter().flatten().find(|&o| o as usize != f)? as usize;
             let flat = mesh.normal(&mesh.faces[f]).dot(mesh.normal(&mesh.faces[other])) >= least;
-            let face = (edge.uses == 2 && flat).then(|| join(&mesh.faces[f], &mesh.faces[other]))??;
+            let alike = || same_names(form, sources[f], sources[other]) && !is_marked(form, &topology, f, other);
+            let face = (edge.uses == 2 && flat && alike()).then(|| join(&mesh.faces[f], &mesh.faces[other]))??;
             Some((other, face))
         });
         match joined {
             Some((other, face)) => {
-                mesh.faces[f] = face;
-                mesh.faces.remove(other);
+                form.mesh.faces[f] = face;
+                form.mesh.faces.remove(other);
+                sources.remove(other);
                 f -= usize::from(other < f);
             }
             None => f += 1,
         }
     }
+    if !form.face_materials.is_empty() {
+        form.face_materials = sources.iter().map(|&source| form.face_material(source)).collect();
+    }
+    if let Some(labels) = &mut form.labels {
+        labels.tags = labels.tags.with_faces(&sources);
+        labels.face_groups = sources.iter().map(|&source| labels.group(source)).collect();
+    }
+}
+
+/// Whether two faces, by what they were, have the same material, group and tags.
+fn same_names(form: &Form, a: usize, b: usize) -> bool {
+    let same_tags = form.tags().is_none_or(|tags| tags.face(a) == tags.face(b));
+    same_tags && form.face_material(a) == form.face_material(b) && form.group(a) == form.group(b)
+}
+
+/// Whether a tagged edge, or a tagged vertex between two edges, lies between two faces.
+fn is_marked(form: &Form, topology: &Topology, f: usize, other: usize) -> bool {
+    let Some(tags) = form.tags().filter(|tags| tags.any_edges() || tags.any_vertices()) else { return false };
+    let edges = topology.face_edges(f).iter().map(|&e| &topology.edges[e as usize]);
+    let is_other = |face: u32| face as usize == other;
+    let shared: Vec<[u32; 2]> =
+        edges.filter(|e| is_other(e.first) || e.second.is_some_and(is_other)).map(|e| [e.from, e.to]).collect();
+    let inner = |v: u32| shared.iter().filter(|ends| ends.contains(&v)).count() > 1;
+    shared
+        .iter()
+        .any(|&edge| !tags.edge(edge).is_empty() || edge.into_iter().any(|v| inner(v) && !tags.vertex(v).is_empty()))
 }
 
 /// One loop around both faces; `None` if they share more than one stretch, or carry more than corners.

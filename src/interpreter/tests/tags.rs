@@ -160,3 +160,33 @@ fn nothing_is_kept_where_nothing_asks() {
     assert!(compiled("Lot --> case geometry.hasTags(\"a\") : A. else : B.").observes_tags());
     assert!(compiled("f = comp(f) { isTagged(\"a\") : 1 }\nLot --> A.").observes_tags());
 }
+
+#[test]
+fn cleaning_keeps_what_is_tagged() {
+    // Two coplanar halves of a floor join only if nothing marks the edge between them. The end of the first edge stays.
+    let halves = |tags: &str| {
+        let mut mesh = ground(&[(0.0, 0.0), (4.0, 0.0), (4.0, -4.0), (0.0, -4.0)]);
+        let right = ground(&[(4.0, 0.0), (9.0, 0.0), (9.0, -4.0), (4.0, -4.0)]);
+        let start = mesh.positions.len() as u32;
+        mesh.positions.extend(right.positions);
+        mesh.faces.push(crate::geometry::Face::new(vec![start, start + 1, start + 2, start + 3]));
+        let rules = format!(
+            "Lot --> {tags} cleanupGeometry(all, 0) print(geometry.nFaces + \" \" + geometry.nVertices + \" \" + geometry.tags) comp(f) {{ isTagged(\"left\") : L. | all : R. }}"
+        );
+        let tree = derived(&rules, mesh);
+        assert!(tree.diagnostics.is_empty(), "{rules}");
+        (tree.prints[0].clone(), areas(&tree, "L"), areas(&tree, "R"))
+    };
+    assert_eq!(halves(""), ("1 5 (0)[]".into(), vec![], vec![36.0]));
+    assert_eq!(halves("tag(\"same\")"), ("1 5 (1)[same]".into(), vec![], vec![36.0]));
+    assert_eq!(halves("tag(\"rim\", edges)"), ("2 6 (1)[rim]".into(), vec![], vec![16.0, 20.0]));
+    assert_eq!(halves("tag(\"rim\", edges) deleteTags(\"rim\")"), ("1 5 (0)[]".into(), vec![], vec![36.0]));
+    assert_eq!(halves("tag(\"corner\", vertices)"), ("1 6 (1)[corner]".into(), vec![], vec![36.0]));
+}
+
+#[test]
+fn roofs_keep_the_tags_of_their_floor() {
+    let rules = r#"Lot --> tag("plan") tag("eave", edges) roofHip(30) comp(f) { isTagged("plan") : print(geometry.tags("eave", edges)) A. }"#;
+    let tree = run(rules, SMALL);
+    assert_eq!((count(&tree, "A"), tree.prints.iter().filter(|p| *p == "(1)[eave]").count()), (5, 5));
+}
