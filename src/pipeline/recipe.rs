@@ -26,6 +26,8 @@ pub struct Recipe {
     pub path: PathBuf,
     pub spec: RenderSpec,
     pub access: Access,
+    /// What rules may read: also the projects of rule files that the command line names.
+    readable: Access,
     pub programs: Programs,
     pub arguments: Vec<(String, String)>,
     /// Warnings of the recipe and its rules.
@@ -47,12 +49,16 @@ pub fn load_recipe(path: &Path, options: &RecipeOptions, sources: &mut SourceMap
     let Some(spec) = spec else { return Err(PipelineError::Diagnostics(diagnostics.sorted())) };
     rules::check_files(&spec, &access, &mut diagnostics);
     let programs = rules::compile(&spec, &access, sources, &mut diagnostics);
+    let mut readable = access.clone();
+    for tree in programs.trees() {
+        readable.allow(tree)?;
+    }
     let diagnostics = diagnostics.sorted();
     if diagnostics.has_errors() {
         return Err(PipelineError::Diagnostics(diagnostics));
     }
     let arguments = options.arguments.clone();
-    Ok(Recipe { path: path.to_owned(), spec, access, programs, arguments, warnings: diagnostics })
+    Ok(Recipe { path: path.to_owned(), spec, access, readable, programs, arguments, warnings: diagnostics })
 }
 
 /// What OpenStreetMap's licence asks of everything made from its data.
@@ -64,9 +70,9 @@ impl Recipe {
         ATTRIBUTION
     }
 
-    /// Files that rules may read: those below the recipe's folders.
+    /// Files that rules may read.
     pub fn assets(&self) -> FileAssets {
-        FileAssets::new(self.access.clone())
+        FileAssets::new(self.readable.clone())
     }
 
     /// The command line's arguments as the manifest tells them: paths by their names alone.

@@ -2,6 +2,7 @@
 //! recipe's own text for every file that is missing or out of bounds.
 
 use std::collections::BTreeMap;
+use std::path::PathBuf;
 
 use super::shipped;
 use crate::cga;
@@ -14,6 +15,8 @@ use crate::spec::render_spec::{AttributeSpec, FileRef, LevelEffect, Origin, Rend
 #[derive(Default)]
 pub struct Programs {
     programs: BTreeMap<String, Program>,
+    /// Trees of rule files that the command line names: their rules may read there.
+    trees: Vec<PathBuf>,
 }
 
 impl Programs {
@@ -24,6 +27,11 @@ impl Programs {
     /// The program of a reference.
     pub fn get(&self, file: &FileRef) -> &Program {
         self.programs.get(&key(file)).expect("every rule file of a checked recipe was compiled")
+    }
+
+    /// Folder trees besides the recipe's own that rules may read.
+    pub fn trees(&self) -> &[PathBuf] {
+        &self.trees
     }
 }
 
@@ -77,7 +85,7 @@ pub fn compile(spec: &RenderSpec, access: &Access, sources: &mut SourceMap, diag
         let key = key(&assignment.file);
         if !tried.contains(&key) {
             tried.push(key.clone());
-            if let Some(program) = compile_file(&assignment.file, access, sources, diagnostics) {
+            if let Some(program) = compile_file(&assignment.file, access, sources, &mut compiled.trees, diagnostics) {
                 compiled.programs.insert(key.clone(), program);
             }
         }
@@ -92,6 +100,7 @@ fn compile_file(
     file: &FileRef,
     access: &Access,
     sources: &mut SourceMap,
+    trees: &mut Vec<PathBuf>,
     diagnostics: &mut Diagnostics,
 ) -> Option<Program> {
     let options = cga::CompileOptions::default();
@@ -111,11 +120,13 @@ fn compile_file(
             Ok(path) => {
                 let mut own = access.clone();
                 if file.origin == Origin::CommandLine
-                    && let Some(folder) = path.parent()
-                    && let Err(error) = own.allow(Project::of(folder).tree())
+                    && let Some(project) = path.parent().map(Project::of)
                 {
-                    diagnostics.push(unreadable(file, &error));
-                    return None;
+                    if let Err(error) = own.allow(project.tree()) {
+                        diagnostics.push(unreadable(file, &error));
+                        return None;
+                    }
+                    trees.push(project.tree().to_owned());
                 }
                 cga::compile(&path, &own, sources, &options)
             }

@@ -1,7 +1,6 @@
 //! Materials: every attribute, the two layers, material files, and what leaves carry out.
 
 use super::files::Shop;
-use super::*;
 use crate::interpreter::material::{MapLayer, OpacityMode};
 
 /// Every material attribute: its name, a value, how the value reads, how it reads before it is set.
