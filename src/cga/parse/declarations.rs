@@ -134,7 +134,7 @@ impl Builder {
         let mut value = Expr { kind: ast::ExprKind::Bool(false), span };
         for part in pair.into_inner() {
             match part.as_rule() {
-                Rule::name => name = self.text(&part),
+                Rule::name | Rule::function_name => name = self.text(&part),
                 Rule::parameters => parameters = Some(self.names(part, Rule::name)),
                 Rule::locals => locals = self.locals(part),
                 Rule::value => value = self.value(part),
@@ -156,7 +156,7 @@ impl Builder {
             match part.as_rule() {
                 Rule::modifier if self.written(&part) == "start" => out.modifier = Some(Modifier::Start),
                 Rule::modifier => out.modifier = Some(Modifier::Extension),
-                Rule::name => out.name = self.text(&part),
+                Rule::rule_name => out.name = self.text(&part),
                 Rule::parameters => out.parameters = self.names(part, Rule::name),
                 Rule::locals => out.locals = self.locals(part),
                 Rule::successor => out.successor = self.successor(part),

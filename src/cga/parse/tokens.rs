@@ -17,7 +17,7 @@ pub mod letter {
     /// `union`, `subtract`, `intersect` before a mode, a block or an item.
     pub const BOOLEAN_OPERATION: u8 = b'u';
     /// A name with parentheses and a dotted name directly behind them.
-    pub const DYNAMIC: u8 = b'd';
+    pub const DYNAMIC: u8 = b'l';
     pub const EXTENDS: u8 = b'e';
     /// The first name of a percentage such as `share * 2 % :`.
     pub const WEIGHT: u8 = b'w';
