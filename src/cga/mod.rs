@@ -8,8 +8,10 @@ pub mod builtins;
 mod check;
 pub mod codes;
 mod dump;
+mod format;
 pub mod parse;
 pub mod program;
 
 pub use check::{CompileOptions, check, compile, compile_text, styles};
 pub use dump::{dump_ast, dump_program};
+pub use format::format;
