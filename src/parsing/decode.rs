@@ -2,7 +2,7 @@
 
 use encoding_rs::{Encoding, WINDOWS_1252};
 
-/// A decoded text. Line ends are kept.
+/// A decoded text. Line ends are LF or CRLF; a CR alone, as old systems wrote, has become LF.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Decoded {
     pub text: String,
@@ -12,6 +12,13 @@ pub struct Decoded {
 
 /// Decodes a rule or recipe file. Never fails: every byte string is some Windows-1252 text.
 pub fn decode(bytes: &[u8]) -> Decoded {
+    let Decoded { text, guessed } = characters(bytes);
+    let alone = text.bytes().zip(text.bytes().skip(1).chain([0])).any(|pair| pair.0 == b'\r' && pair.1 != b'\n');
+    let text = if alone { text.replace("\r\n", "\n").replace('\r', "\n") } else { text };
+    Decoded { text, guessed }
+}
+
+fn characters(bytes: &[u8]) -> Decoded {
     if let Some((encoding, mark)) = Encoding::for_bom(bytes) {
         let (text, _) = encoding.decode_without_bom_handling(&bytes[mark..]);
         return Decoded { text: text.into_owned(), guessed: false };
@@ -33,5 +40,7 @@ mod tests {
         assert_eq!(decode(b"\xff\xfea\0b\0").text, "ab");
         let old = decode(b"// Stra\xdfe");
         assert_eq!((&*old.text, old.guessed), ("// Straße", true));
+        assert_eq!(decode(b"a\rb\r\nc\n").text, "a\nb\nc\n");
+        assert_eq!(decode(b"a\r\nb\r\n").text, "a\r\nb\r\n");
     }
 }

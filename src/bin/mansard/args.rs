@@ -29,6 +29,18 @@ pub enum Command {
         #[command(flatten)]
         recipe: RecipeOptions,
     },
+    /// Lay out rule files (.cga); their meaning and comments stay
+    Fmt {
+        /// Files to write in place; `-` is standard input
+        #[arg(required_unless_present = "stdin", value_name = "FILE")]
+        files: Vec<PathBuf>,
+        /// Write nothing, name the files that would change, and exit with 1 if there are any
+        #[arg(long)]
+        check: bool,
+        /// Read standard input, write to standard output
+        #[arg(long)]
+        stdin: bool,
+    },
     /// Run a rule file on a footprint, or on several
     Derive(DeriveArgs),
     /// Build the meshes of a recipe's scene as binary glTF

@@ -5,6 +5,7 @@ mod build;
 mod check;
 mod derive;
 mod dump;
+mod fmt;
 mod footprint;
 mod plan;
 mod progress;
@@ -35,6 +36,7 @@ fn main() -> ExitCode {
     let reporter = Reporter::new(args.quiet);
     let result = match args.command {
         Command::Check { files, format, recipe } => check::run(&files, format, &recipe, args.quiet),
+        Command::Fmt { files, check, stdin } => fmt::run(&files, check, stdin, args.quiet),
         Command::Derive(derive) => derive::run(&derive, args.quiet),
         Command::Build { recipe, output, reports, options, work } => {
             build::run(&recipe, &output, reports.as_ref(), &options, &work, &reporter)

@@ -43,13 +43,19 @@ pub fn explain(reading: &Reading<'_>, error: &Error<Rule>) -> Problem {
             let message = "this is nested too deeply to be read".to_owned();
             return Problem { diagnostic: too_deep(span, message), token, unclosed_until: None };
         }
-        ErrorVariant::ParsingError { positives, .. } => match expected(positives, wording) {
+        ErrorVariant::ParsingError { positives, .. } => match expected(&without_parts(positives), wording) {
             expected if expected.is_empty() => format!("unexpected {}", reading.found(token)),
             expected => format!("expected {expected}, found {}", reading.found(token)),
         },
     };
     let diagnostic = Diagnostic::error(codes::SYNTAX, span, message);
     Problem { diagnostic, token, unclosed_until: None }
+}
+
+/// Where any expression fits, a string by itself is not worth naming.
+fn without_parts(expected: &[Rule]) -> Vec<Rule> {
+    let any_expression = expected.contains(&Rule::number);
+    expected.iter().copied().filter(|rule| !any_expression || *rule != Rule::string).collect()
 }
 
 fn too_deep(span: Span, message: String) -> Diagnostic {

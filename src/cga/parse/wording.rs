@@ -7,13 +7,13 @@ use crate::parsing::Expected;
 /// What a reader calls this rule; [`Expected::Weak`] for what may almost always follow.
 pub fn wording(kind: &Rule) -> Expected {
     let text = match kind {
+        Rule::plain_name => return Expected::Weak("an operation or a rule name"),
         Rule::binary_operator => return Expected::Weak("an operator"),
         Rule::arguments | Rule::parameters | Rule::open_paren => return Expected::Weak("`(`"),
         Rule::open_bracket | Rule::index | Rule::group => return Expected::Weak("`[`"),
         Rule::percent => return Expected::Weak("`% :`"),
         Rule::name | Rule::style_name | Rule::rule_name | Rule::function_name | Rule::annotation_name => "a name",
         Rule::string => "a string in quotes",
-        Rule::number => "a number",
         Rule::value | Rule::expression | Rule::argument | Rule::element_value | Rule::array_row | Rule::call => {
             "an expression"
         }
@@ -39,7 +39,7 @@ pub fn wording(kind: &Rule) -> Expected {
         Rule::selector_operator => "`:`",
         Rule::selector | Rule::value_selector => "a selector",
         Rule::split_piece | Rule::perimeter_section => "a size",
-        Rule::successor | Rule::sequence | Rule::plain_item | Rule::plain_name => "an operation or a rule name",
+        Rule::successor | Rule::sequence | Rule::plain_item => "an operation or a rule name",
         Rule::declaration | Rule::next_declaration | Rule::function | Rule::rule => "a declaration",
         _ => return Expected::Silent,
     };
