@@ -74,7 +74,7 @@ impl Forced {
 
 /// Writes a document with `newline` as line end, the last one included.
 pub fn render(text: &str, docs: Vec<Doc>, newline: &'static str) -> String {
-    let mut writer = Writer { newline, out: String::new(), column: 0, lines: 0, blank: false, space: false };
+    let mut writer = Writer { newline, out: String::new(), column: 0, lines: 0, blank: false, space: false, pad: 0 };
     // What is left to write, the next on top.
     let mut left: Vec<Open> = docs.iter().rev().map(|doc| Open { indent: 0, broken: true, doc }).collect();
     while let Some(Open { indent, broken, doc }) = left.pop() {
@@ -92,7 +92,7 @@ pub fn render(text: &str, docs: Vec<Doc>, newline: &'static str) -> String {
             Doc::Hard | Doc::EndLine => writer.line(),
             Doc::OwnLine => writer.fresh_line(),
             Doc::Blank => writer.blank = true,
-            Doc::Pad(count) if broken => writer.write(indent, &" ".repeat(*count)),
+            Doc::Pad(count) if broken => writer.pad = *count,
             Doc::Pad(_) => {}
             Doc::Source(start, end) => writer.write(indent, &text[*start as usize..*end as usize]),
             Doc::Comment(start, end) => writer.comment(indent, &text[*start as usize..*end as usize]),
@@ -212,6 +212,8 @@ struct Writer {
     lines: usize,
     blank: bool,
     space: bool,
+    /// Spaces in front of the next token.
+    pad: usize,
 }
 
 impl Writer {
@@ -253,6 +255,9 @@ impl Writer {
 
     fn write(&mut self, indent: usize, written: &str) {
         self.move_on(indent);
+        let pad = std::mem::take(&mut self.pad);
+        self.out.extend(std::iter::repeat_n(' ', pad));
+        self.column += pad;
         self.out.push_str(written);
         match written.rfind('\n') {
             Some(end) => self.column = written[end + 1..].chars().count().max(1),

@@ -126,6 +126,8 @@ impl Layout<'_> {
                     }
                 }
                 Part::Node(node) if colons == if is_section { 2 } else { 1 } => docs.push(self.body(node)),
+                // What begins the line must not be indented against it.
+                Part::Node(node) if docs.is_empty() => docs.extend(self.node(node)),
                 Part::Node(node) => docs.push(Doc::Indent(self.node(node))),
             }
         }

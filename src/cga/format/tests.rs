@@ -100,7 +100,7 @@ fn a_file_with_errors_is_not_formatted() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(200))]
+    #![proptest_config(ProptestConfig::with_cases(120))]
 
     #[test]
     fn random_programs_keep_their_tree_and_comments(
