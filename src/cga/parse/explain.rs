@@ -48,7 +48,14 @@ pub fn explain(reading: &Reading<'_>, error: &Error<Rule>) -> Problem {
             expected => format!("expected {expected}, found {}", reading.found(token)),
         },
     };
-    let diagnostic = Diagnostic::error(codes::SYNTAX, span, message);
+    let positives = match &error.variant {
+        ErrorVariant::ParsingError { positives, .. } => &positives[..],
+        ErrorVariant::CustomError { .. } => &[],
+    };
+    let mut diagnostic = Diagnostic::error(codes::SYNTAX, span, message);
+    if let Some(help) = reading.help(token, positives) {
+        diagnostic = diagnostic.help(help);
+    }
     Problem { diagnostic, token, unclosed_until: None }
 }
 
@@ -71,7 +78,7 @@ fn unclosed_string(file: &SourceFile, start: usize, token: usize) -> Problem {
 }
 
 impl Reading<'_> {
-    fn text(&self, token: usize) -> &str {
+    pub fn text(&self, token: usize) -> &str {
         self.tokens.text(&self.file.text, token)
     }
 

@@ -6,6 +6,7 @@ mod classify;
 mod declarations;
 mod explain;
 mod expressions;
+mod hints;
 mod lexer;
 mod successors;
 #[cfg(test)]

@@ -1,5 +1,8 @@
 //! The parser on the reference's examples, on broken text, and on random text.
 
+mod forms;
+mod mistakes;
+
 use proptest::prelude::*;
 
 use super::parse;
