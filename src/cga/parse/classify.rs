@@ -66,6 +66,10 @@ fn name(letters: &[u8], partners: &[u32], i: usize) -> u8 {
     };
     match header.map_or(0, at) {
         letter::ARROW => return letter::RULE,
+        // `->` and `-- >`: no expression holds them, so a rule was meant.
+        b'-' if header.is_some_and(|h| at(h + 1) == b'>' || (at(h + 1) == b'-' && at(h + 2) == b'>')) => {
+            return letter::RULE;
+        }
         b'=' => return letter::FUNCTION,
         _ => {}
     }

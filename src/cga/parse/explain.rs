@@ -62,7 +62,7 @@ pub fn explain(reading: &Reading<'_>, error: &Error<Rule>) -> Problem {
 /// Where any expression fits, a string by itself is not worth naming.
 fn without_parts(expected: &[Rule]) -> Vec<Rule> {
     let any_expression = expected.contains(&Rule::number);
-    expected.iter().copied().filter(|rule| !any_expression || *rule != Rule::string).collect()
+    expected.iter().copied().filter(|kind| !any_expression || *kind != Rule::string).collect()
 }
 
 fn too_deep(span: Span, message: String) -> Diagnostic {

@@ -51,7 +51,7 @@ impl Reading<'_> {
             letter::STRING if self.tokens.letter(self.first) == letter::IMPORT => {
                 Some("imports are written `import prefix : \"file.cga\"`")
             }
-            b'a'..=b'z' if self.tokens.letter(self.first) == letter::IMPORT && token == self.first + 2 => {
+            _ if self.tokens.letter(self.first) == letter::IMPORT && token == self.first + 2 => {
                 Some("imports are written `import prefix : \"file.cga\"`")
             }
             _ => None,

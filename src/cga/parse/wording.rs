@@ -14,9 +14,18 @@ pub fn wording(kind: &Rule) -> Expected {
         Rule::percent => return Expected::Weak("`% :`"),
         Rule::name | Rule::style_name | Rule::rule_name | Rule::function_name | Rule::annotation_name => "a name",
         Rule::string => "a string in quotes",
-        Rule::value | Rule::expression | Rule::argument | Rule::element_value | Rule::array_row | Rule::call => {
-            "an expression"
-        }
+        Rule::number
+        | Rule::value
+        | Rule::expression
+        | Rule::argument
+        | Rule::element_value
+        | Rule::array_row
+        | Rule::call
+        | Rule::called_name
+        | Rule::comp_word
+        | Rule::parenthesised
+        | Rule::array
+        | Rule::boolean => "an expression",
         Rule::close_paren => "`)`",
         Rule::comma => "`,`",
         Rule::colon => "`:`",

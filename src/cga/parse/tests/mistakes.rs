@@ -34,7 +34,6 @@ fn misspelt_keywords_are_named() {
         ("A -->\n    csae x : B\n    else : C", "case"),
         ("A -->\n    Case x : B\n    else : C", "case"),
         ("A --> csae x : B else : C", "case"),
-        ("f(x) wiht(a := 1) = a", "with"),
     ] {
         shows(text, &format!("did you mean `{word}`?"));
     }
