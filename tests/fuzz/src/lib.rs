@@ -6,8 +6,10 @@
 pub mod cga;
 #[path = "../../../src/diagnostics/mod.rs"]
 pub mod diagnostics;
+#[cfg(feature = "evaluate")]
 #[path = "../../../src/geometry/mod.rs"]
 pub mod geometry;
+#[cfg(feature = "evaluate")]
 #[path = "../../../src/interpreter/mod.rs"]
 pub mod interpreter;
 #[path = "../../../src/parsing/mod.rs"]
@@ -15,8 +17,11 @@ pub mod parsing;
 #[path = "../../../src/source/mod.rs"]
 pub mod source;
 
+#[cfg(feature = "evaluate")]
 pub mod evaluate;
+#[cfg(feature = "evaluate")]
 pub mod expression;
+#[cfg(feature = "evaluate")]
 pub mod program;
 pub mod salad;
 pub mod text;
