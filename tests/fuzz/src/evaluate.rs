@@ -9,6 +9,7 @@ use crate::geometry::{Face, Mesh};
 use crate::interpreter::seed::Seed;
 use crate::interpreter::{Limits, NoAssets, StartShape, derive};
 use crate::source::SourceMap;
+use crate::text::SHOWN;
 
 /// Corners of start shapes, counter-clockwise seen from above.
 const OUTLINES: &[&[(f64, f64)]] = &[
@@ -34,7 +35,7 @@ pub fn limits() -> Limits {
 pub fn evaluate(program: &str, bytes: &mut Unstructured<'_>) -> Result<()> {
     let mut sources = SourceMap::default();
     let (compiled, diagnostics) = compile_text("fuzz.cga", program, &mut sources, &CompileOptions::default());
-    for diagnostic in diagnostics.iter() {
+    for diagnostic in diagnostics.iter().take(SHOWN) {
         assert!(!render(diagnostic, &sources, false).is_empty());
     }
     let Some(compiled) = compiled else { return Ok(()) };
@@ -44,7 +45,7 @@ pub fn evaluate(program: &str, bytes: &mut Unstructured<'_>) -> Result<()> {
     let mesh = Mesh { positions, faces: vec![face] };
     let start = StartShape::new(mesh, Seed::root(u64::from(bytes.int_in_range(0..=3u8)?)), "fuzz");
     let tree = derive(&compiled, &start, &NoAssets, &limits());
-    for diagnostic in tree.diagnostics.iter() {
+    for diagnostic in tree.diagnostics.iter().take(SHOWN) {
         assert!(!render(diagnostic, &sources, false).is_empty());
     }
     for leaf in &tree.leaves {

@@ -6,11 +6,23 @@ use crate::cga::builtins::{Attr, Function, ParameterKind, Signature};
 use crate::cga::program::Type;
 
 const NUMBERS: &[&str] = &[
-    "0", "1", "2", "3", "0.5", "10", "-1", "-0.3", "45", "90", "180", "0.001", "1e-9", "1e9", "-1e30", "(0/0)", "(1/0)", "7.25",
+    "0", "1", "2", "3", "0.5", "10", "-1", "-0.3", "45", "90", "180", "0.001", "1e-9", "1e9", "-1e30", "(0/0)",
+    "(1/0)", "7.25",
 ];
 const STRINGS: &[&str] = &[
-    "\"\"", "\"a\"", "\"a;b;c;\"", "\"#ff8800\"", "\"builtin:cube\"", "\"x.obj\"", "\"1.5\"", "\"*\"", "\"wall.front\"",
-    "\"(\"", "\"ä\\n\"", "\"edge.top\"", "\"top\"",
+    "\"\"",
+    "\"a\"",
+    "\"a;b;c;\"",
+    "\"#ff8800\"",
+    "\"builtin:cube\"",
+    "\"x.obj\"",
+    "\"1.5\"",
+    "\"*\"",
+    "\"wall.front\"",
+    "\"(\"",
+    "\"ä\\n\"",
+    "\"edge.top\"",
+    "\"top\"",
 ];
 
 /// An expression of a type; `depth` is what is left for calls within calls.
@@ -37,9 +49,13 @@ fn constant(bytes: &mut Unstructured<'_>, wanted: Type) -> Result<String> {
         Type::Float => (*bytes.choose(NUMBERS)?).to_owned(),
         Type::Bool => (*bytes.choose(&["true", "false"])?).to_owned(),
         Type::String => (*bytes.choose(STRINGS)?).to_owned(),
-        Type::Floats => (*bytes.choose(&["[1, 2, 3]", "[1:5]", "[0.5; 2]", "floatArray()", "[3:-1:-2]", "[1,2;3,4]"])?).to_owned(),
+        Type::Floats => {
+            (*bytes.choose(&["[1, 2, 3]", "[1:5]", "[0.5; 2]", "floatArray()", "[3:-1:-2]", "[1,2;3,4]"])?).to_owned()
+        }
         Type::Bools => (*bytes.choose(&["[true, false]", "boolArray()", "([1, 2] .== [1, 3])"])?).to_owned(),
-        Type::Strings => (*bytes.choose(&["[\"a\", \"b\"]", "stringArray()", "splitString(\"a;b\", \";\")"])?).to_owned(),
+        Type::Strings => {
+            (*bytes.choose(&["[\"a\", \"b\"]", "stringArray()", "splitString(\"a;b\", \";\")"])?).to_owned()
+        }
     })
 }
 

@@ -9,13 +9,16 @@ use crate::source::SourceMap;
 /// Longest text, in bytes: longer ones are slow to run and say no more.
 pub const LONGEST: usize = 20_000;
 
+/// Messages drawn per text: drawing is slower than finding.
+pub const SHOWN: usize = 5;
+
 /// Parses and formats: every message can be shown, formatting twice changes nothing more, the tree stays.
 pub fn parse_and_format(bytes: &[u8]) {
     let text = decode(bytes).text;
     let mut sources = SourceMap::default();
     let file = sources.add("fuzz.cga", text);
     let (ast, diagnostics) = parse::parse(&file);
-    for diagnostic in diagnostics.iter() {
+    for diagnostic in diagnostics.iter().take(SHOWN) {
         assert!(!render(diagnostic, &sources, false).is_empty());
     }
     if diagnostics.has_errors() {
@@ -34,7 +37,7 @@ pub fn parse_and_format(bytes: &[u8]) {
 pub fn check(text: &str) {
     let mut sources = SourceMap::default();
     let (_, diagnostics) = compile_text("fuzz.cga", text, &mut sources, &CompileOptions::default());
-    for diagnostic in diagnostics.iter() {
+    for diagnostic in diagnostics.iter().take(SHOWN) {
         assert!(!render(diagnostic, &sources, false).is_empty());
     }
 }
