@@ -30,7 +30,9 @@ pub fn tell(totals: &[Report], reporter: &Reporter) {
     }
 }
 
-fn encoder(file: &Path) -> Option<fn(&[SceneReports]) -> Vec<u8>> {
+type Encoder = fn(&[SceneReports]) -> Vec<u8>;
+
+fn encoder(file: &Path) -> Option<Encoder> {
     match file.extension()?.to_str()? {
         "csv" => Some(to_csv),
         "json" => Some(to_json),

@@ -29,6 +29,7 @@ const OTHERS: &[&str] = &["txt", "csv"];
 
 type Found = Result<Arc<PathBuf>, AssetError>;
 type Listed = Result<Arc<[Arc<str>]>, AssetError>;
+type Table = Result<Arc<Array<Arc<str>>>, AssetError>;
 
 /// Files inside the allowed folders.
 #[derive(Debug)]
@@ -38,7 +39,7 @@ pub struct FileAssets {
     geometry: Cache<PathBuf, Result<Arc<Asset>, AssetError>>,
     images: Cache<PathBuf, Result<ImageInfo, AssetError>>,
     texts: Cache<PathBuf, Result<Arc<str>, AssetError>>,
-    tables: Cache<PathBuf, Result<Arc<Array<Arc<str>>>, AssetError>>,
+    tables: Cache<PathBuf, Table>,
     materials: Cache<PathBuf, Result<Arc<Pairs>, AssetError>>,
     listing: OnceLock<Result<Vec<PathBuf>, AssetError>>,
     read: Mutex<BTreeSet<PathBuf>>,
@@ -213,7 +214,7 @@ impl Assets for FileAssets {
         self.texts.get(path.as_path(), read)
     }
 
-    fn table(&self, folder: &Path, name: &str, most: usize) -> Result<Arc<Array<Arc<str>>>, AssetError> {
+    fn table(&self, folder: &Path, name: &str, most: usize) -> Table {
         let path = self.find_kind(folder, name, &["csv"], "table (.csv)")?;
         self.tables.get(path.as_path(), || {
             let text = super::text_file::read(&self.bytes(&path, name, MOST_TABLE)?);

@@ -85,7 +85,7 @@ impl Buffers {
 }
 
 impl Layout {
-    fn slices<'b>(self, bytes: &'b [u8]) -> Result<impl Iterator<Item = &'b [u8]>, String> {
+    fn slices(self, bytes: &[u8]) -> Result<impl Iterator<Item = &[u8]>, String> {
         let last = self.count.saturating_sub(1).checked_mul(self.stride);
         let end = last.and_then(|last| last.checked_add(self.offset)?.checked_add(self.size));
         if self.count > 0 && end.is_none_or(|end| end > bytes.len()) {
