@@ -82,6 +82,10 @@ fn cut_edges(form: &Form, normal: DVec3, boundaries: &[f64], pieces: usize) -> V
             if let Some(piece) = out.get_mut(at(normal.dot(*p))) {
                 piece.mesh.positions.push(*p);
                 piece.normals.extend(form.normals.get(i));
+                if let Some(tags) = form.tags() {
+                    let new = piece.mesh.positions.len() as u32 - 1;
+                    piece.tags_mut().extend_vertex(new, tags.vertex(i as u32));
+                }
             }
         }
         return out;
@@ -101,6 +105,13 @@ fn cut_edges(form: &Form, normal: DVec3, boundaries: &[f64], pieces: usize) -> V
                 piece.mesh.positions.push(if to == dq { q } else { point(to) });
                 piece.edges.push([start, start + 1]);
                 piece.normals.extend(form.normals.get(i));
+                if let Some(tags) = form.tags() {
+                    let own = piece.tags_mut();
+                    own.extend_edge([start, start + 1], tags.edge([a, b]));
+                    // Cut points are new vertices.
+                    let ends = [(from == dp, start, a), (to == dq, start + 1, b)];
+                    ends.iter().filter(|e| e.0).for_each(|&(_, new, old)| own.extend_vertex(new, tags.vertex(old)));
+                }
             }
         }
     }

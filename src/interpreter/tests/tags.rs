@@ -123,6 +123,20 @@ P --> comp(e) { geometry.hasTags("rim", edges) : A. | all : B. }"#,
 }
 
 #[test]
+fn tags_survive_cuts_of_edges_and_points() {
+    let rules = |component: &str| {
+        format!(
+            r#"Lot --> tag("rim", edges) tag("end", vertices) comp({component}) {{ 0 : split(x) {{ 4 : P | ~1 : P }} }}
+P --> print(geometry.tags) comp(v) {{ all : print(geometry.tags) NIL }}"#
+        )
+    };
+    let edges = prints(&rules("e"));
+    assert_eq!(edges.iter().filter(|p| *p == "(2)[end,rim]").count(), 2, "both pieces: {edges:?}");
+    assert_eq!(edges.iter().filter(|p| *p == "(1)[end]").count(), 2, "one old end each: {edges:?}");
+    assert_eq!(edges.iter().filter(|p| *p == "(0)[]").count(), 2, "the cut point twice: {edges:?}");
+}
+
+#[test]
 fn setbacks_tag_edges() {
     let rules = r#"Lot --> setback(1) { front : Strip | remainder : Rest }
 Strip --> comp(e) { isTagged("setback.front") : F. | isTagged("setback.back") : B. | isTagged("setback.side") : S. | all : X. }
