@@ -128,7 +128,7 @@ pub fn apply(
         O::InsertAlongUv => insert_along_uv::apply(run, &args, shape)?,
         O::Insert => insert::apply(run, &args, shape)?,
         O::ResetGeometry => reset_geometry::apply(run, shape),
-        O::Trim => trim::apply(shape),
+        O::Trim => trim::apply(run, shape, span),
         O::CleanupGeometry => cleanup::apply(run, &args, shape),
         O::DeleteHoles => delete_holes::apply(shape),
         O::Color => appearance::color(run, &args, shape),
@@ -154,7 +154,7 @@ pub fn apply(
         other => not_evaluated(run, other.name(), span),
     }
     if operation.inserts() {
-        trim::inserted(shape);
+        trim::inserted(run, shape, span);
     }
     Ok(())
 }

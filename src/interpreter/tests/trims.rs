@@ -42,6 +42,22 @@ Cut --> print(scope.sx + \" \" + geometry.area + \" \" + trim.horizontal) NIL";
     assert_eq!(run(rules, LOT).prints, ["30 240 true", "20 160 false"]);
 }
 
+/// Extruded by 8, the corner at (4, -4) is concave.
+const L: &[(f64, f64)] = &[(0.0, 0.0), (10.0, 0.0), (10.0, -4.0), (4.0, -4.0), (4.0, -10.0), (0.0, -10.0)];
+
+#[test]
+fn concave_edges_cut_only_along_themselves() {
+    // The slab on the wall from (10, -4) to (4, -4) goes on 2 m into the block, and 1 m above and below the edge.
+    let slab = "Lot --> extrude(8) comp(f) { 4 : t(0,-1,0) s(8,10,1) primitiveCube A. }";
+    near(&[closed_volume(slab, L)], &[5.5 * 8.0 + 8.0 * 2.0]);
+}
+
+#[test]
+fn a_face_is_not_cut_where_it_goes_on_behind_its_own_plane() {
+    let top = "Lot --> extrude(8) set(trim.horizontal, true) comp(f) { top : s('1,'1,1) primitiveCube A. }";
+    near(&[closed_volume(top, L)], &[64.0 + 1.0 / 3.0]);
+}
+
 #[test]
 fn only_single_faces_of_a_split_get_planes() {
     let together = "Lot --> extrude(8) comp(f) { front = t(-2,0,0) s(24,'1,1) primitiveCube A. }";
