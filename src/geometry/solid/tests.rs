@@ -202,6 +202,7 @@ fn grid_box() -> impl Strategy<Value = Mesh> {
 }
 
 proptest! {
+    #![proptest_config(ProptestConfig::with_cases(96))]
     #[test]
     fn volumes_of_boxes_on_a_grid_add_up(a in grid_box(), b in grid_box(), turn in 0..4u8) {
         let turn = [f64::from(turn) * 0.7, f64::from(turn) * 0.3, 0.0];
@@ -231,4 +232,24 @@ fn a_cut_that_runs_along_an_edge_leaves_no_sliver() {
     let a = prism(&[3.200872109055157, 3.1796945813335373, 1.0], 3.0);
     let turn = [-2.426284028736943, 1.7750767000296577, 2.8232133742220595];
     volumes(&a, &moved(&prism(&[1.0, 1.0, 2.695536563807577], 2.0), turn, [0.0, 2.494019929767064, 0.0]));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(150))]
+    #[test]
+    fn any_faces_are_answered(
+        corners in prop::collection::vec(prop::array::uniform3(-3..4i8), 4..10),
+        faces in prop::collection::vec(prop::collection::vec(0..10u32, 0..6), 1..8),
+        scale in prop::sample::select(vec![1.0, 1e-9, 1e9, 0.0]),
+    ) {
+        let positions: Vec<DVec3> = corners.iter().map(|c| DVec3::from(c.map(f64::from)) * scale).collect();
+        let wrapped = |f: &Vec<u32>| Face::new(f.iter().map(|v| v % positions.len() as u32).collect::<Vec<_>>());
+        let wild = Mesh { faces: faces.iter().map(wrapped).collect(), positions: positions.clone() };
+        for operator in [Operator::Union, Operator::Subtract, Operator::Intersect] {
+            if let Ok(result) = combine(&wild, &cuboid([-1.0; 3], [2.0; 3]), operator, OpenMeshes::HalfSpaces) {
+                prop_assert!(crate::geometry::mesh_checks::missing_vertices(&result.mesh).is_empty());
+                prop_assert!(result.mesh.positions.iter().all(|p| p.is_finite()));
+            }
+        }
+    }
 }

@@ -47,6 +47,7 @@ pub fn pieces_and_rest<'p>(
     let tests: Vec<Test> = selectors.iter().map(|s| Test { test: &s.test, text: &s.text }).collect();
     let components = Components::of(&parent, component, keep_axes, wants_roof_edges(&tests));
     let owners = assign(run, &components, &parent, &tests, env)?;
+    let trims = components.trim_parent(&parent);
     let mut out: Pieces<'p> = Vec::with_capacity(components.len());
     for (number, selector) in selectors.iter().enumerate() {
         let members: Vec<usize> = (0..owners.len()).filter(|&i| owners[i] == Some(number)).collect();
@@ -55,8 +56,8 @@ pub fn pieces_and_rest<'p>(
         let total = groups.len() as f64;
         for (index, group) in groups.iter().enumerate() {
             let mut shape = components.shape(&parent, group);
-            if selector.operator == SelectorOperator::Each {
-                components.add_trim_planes(&parent, group[0], &mut shape);
+            if let Some(trims) = trims.as_ref().filter(|_| selector.operator == SelectorOperator::Each) {
+                components.add_trim_planes(trims, group[0], &mut shape);
             }
             shape.lineage.comp_selector = selector.text.clone();
             shape.lineage.comp_index = index as f64;

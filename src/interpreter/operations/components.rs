@@ -10,7 +10,7 @@ use super::super::environment::{Facet, Place, UvSide};
 use super::super::form::Form;
 use super::super::placement::{Frame, perpendicular};
 use super::super::shape::{Scope, Shape};
-use super::super::trim_planes::TrimSource;
+use super::super::trim_planes::{TrimParent, TrimSource};
 use super::component_list as list;
 use crate::cga::program::Component;
 use crate::geometry::transform::flip_face;
@@ -97,14 +97,17 @@ impl Components {
         shape
     }
 
-    /// A face split off by `:` keeps where its trim planes come from; the old ones are gone (reference 3.8).
-    pub fn add_trim_planes(&self, parent: &Shape, i: usize, shape: &mut Shape) {
-        if self.kind == Component::Faces
-            && parent.form.mesh.faces.len() > 1
-            && let Some(face) = self.facets(i).first().and_then(face_of)
-        {
-            let (form, face) = (parent.form.clone(), face as u32);
-            shape.trim_source = Some(TrimSource { form, face, up: shape.pivot.axes.y_axis });
+    /// What faces that are split off by `:` need for their trim planes (reference 3.8).
+    pub fn trim_parent(&self, parent: &Shape) -> Option<Arc<TrimParent>> {
+        let has_edges = self.kind == Component::Faces && parent.form.mesh.faces.len() > 1;
+        has_edges.then(|| Arc::new(TrimParent::new(parent.form.clone())))
+    }
+
+    /// Gives a face shape its trim planes; the old ones are gone.
+    pub fn add_trim_planes(&self, parent: &Arc<TrimParent>, i: usize, shape: &mut Shape) {
+        if let Some(face) = self.facets(i).first().and_then(face_of) {
+            let (parent, face) = (parent.clone(), face as u32);
+            shape.trim_source = Some(TrimSource { parent, face, up: shape.pivot.axes.y_axis });
         }
     }
 

@@ -30,11 +30,12 @@ pub fn inserted(run: &mut Derivation, shape: &mut Shape, span: Span) {
 
 /// What the active planes leave; `None` if they cut nothing.
 fn trimmed(run: &mut Derivation, shape: &mut Shape, span: Span) -> Option<Form> {
-    let planes = shape.active_trim_planes();
-    if planes.is_empty() || shape.form.mesh.faces.is_empty() {
+    if shape.trim_source.is_none() || shape.form.mesh.faces.is_empty() {
         return None;
     }
-    let mut form: Arc<Form> = shape.bake().clone();
+    shape.bake();
+    let planes = shape.trim_planes_that_cut();
+    let mut form: Arc<Form> = shape.form.clone();
     for plane in &planes {
         if let Some(cut) = cut_by(run, &form, plane, span) {
             form = Arc::new(cut);
