@@ -116,4 +116,19 @@ mod tests {
         assert!(mesh.positions.iter().all(|p| p.y == 5.0));
         assert_eq!((materials.len(), mesh.groups.len()), (1, 1));
     }
+
+    #[test]
+    fn corners_have_their_own_normals_or_the_face_s() {
+        let positions = vec![DVec3::ZERO, DVec3::X, DVec3::new(1.0, 0.0, -1.0)];
+        let mesh = Mesh { positions, faces: Vec::new() };
+        let own = vec![DVec3::new(0.6, 0.8, 0.0), DVec3::Y, DVec3::new(0.0, 0.8, 0.6)];
+        let mut builder = Builder::default();
+        let material = Arc::new(Material::default());
+        let flat = Face::new([0, 1, 2].as_slice());
+        builder.face(&mesh, &flat, &material, DVec3::ZERO);
+        builder.face(&mesh, &Face { normals: own.clone(), ..flat }, &material, DVec3::ZERO);
+        let (mesh, _) = builder.finish();
+        let expected: Vec<glam::Vec3> = [DVec3::Y; 3].into_iter().chain(own).map(|n| n.as_vec3()).collect();
+        assert_eq!(mesh.normals, expected);
+    }
 }
