@@ -34,21 +34,23 @@ pub fn read(run: &Derivation, attr: Attr, shape: &Shape) -> Value {
         Attr::InitialShapeStartRule => return Value::String(run.start_rule.clone()),
         Attr::InitialShapeOrigin(axis) => run.object.origin[number(axis)],
         Attr::InitialShapeOrientation(axis) => euler(&run.object.axes)[number(axis)],
-        Attr::Seedian => shape.seedian.unwrap_or((shape.seed.bits() >> 33) as f64),
-        Attr::SplitIndex => shape.lineage.split_index,
-        Attr::SplitTotal => shape.lineage.split_total,
-        Attr::CompSel => return Value::String(shape.lineage.comp_selector.clone()),
-        Attr::CompIndex => shape.lineage.comp_index,
-        Attr::CompTotal => shape.lineage.comp_total,
-        Attr::TrimHorizontal => return Value::Bool(shape.trim_horizontal),
-        Attr::TrimVertical => return Value::Bool(shape.trim_vertical),
+        Attr::Seedian => shape.state.seedian.unwrap_or((shape.seed.bits() >> 33) as f64),
+        Attr::SplitIndex => f64::from(shape.split_index),
+        Attr::SplitTotal => f64::from(shape.split_total),
+        Attr::CompSel => {
+            return Value::String(shape.comp.as_ref().map_or_else(|| "".into(), |comp| comp.selector.clone()));
+        }
+        Attr::CompIndex => f64::from(shape.comp_index),
+        Attr::CompTotal => shape.comp.as_ref().map_or(0.0, |comp| comp.total),
+        Attr::TrimHorizontal => return Value::Bool(shape.state.trim_horizontal),
+        Attr::TrimVertical => return Value::Bool(shape.state.trim_vertical),
         Attr::Material(attr) => return read_material(run, attr, shape),
     })
 }
 
 /// What the shape set, else what its geometry has, else the default (reference 3.9). Textures read as workspace paths.
 fn read_material(run: &Derivation, attr: MaterialAttr, shape: &Shape) -> Value {
-    let (own, below) = (&shape.appearance, shape.form.first_material());
+    let (own, below) = (&shape.state.appearance, shape.form.first_material());
     let value = match (attr, below) {
         // Channels may come from both layers.
         (MaterialAttr::ColorRgb, Some(below)) => own.over(below).get(attr),
@@ -89,12 +91,12 @@ pub fn write(run: &Derivation, attr: Attr, value: Value, shape: &mut Shape) {
         }
         Attr::Seedian => {
             let wanted = value.to_float();
-            shape.seedian = Some(wanted);
+            shape.state_mut().seedian = Some(wanted);
             shape.seed = Seed::root(wanted.to_bits());
         }
-        Attr::TrimHorizontal => shape.trim_horizontal = value.to_bool(),
-        Attr::TrimVertical => shape.trim_vertical = value.to_bool(),
-        Attr::Material(attr) => Arc::make_mut(&mut shape.appearance).set(attr, value),
+        Attr::TrimHorizontal => shape.state_mut().trim_horizontal = value.to_bool(),
+        Attr::TrimVertical => shape.state_mut().trim_vertical = value.to_bool(),
+        Attr::Material(attr) => Arc::make_mut(&mut shape.state_mut().appearance).set(attr, value),
         _ => {}
     }
 }

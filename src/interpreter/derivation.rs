@@ -17,6 +17,7 @@ use super::provenance::Sources;
 use super::reports::Reports;
 use super::shape::Shape;
 use super::start;
+use super::steps::{Path, StepId, Steps};
 use super::streets::Streets;
 use super::tree::ShapeTree;
 use super::value::Value;
@@ -42,78 +43,41 @@ pub struct Derivation<'p> {
     pub start_rule: Arc<str>,
     /// What the derivation began with, before its attributes were known.
     pub initial: Option<Shape>,
-    pub leaves: Leaves,
+    pub leaves: Leaves<'p>,
     pub reports: Reports,
     pub prints: Vec<String>,
     printed: usize,
     diagnostics: Diagnostics,
     warned: BTreeSet<(&'static str, Span)>,
-    pending: Vec<Task>,
+    pending: Vec<Task<'p>>,
+    /// An empty list that has held the children of a rule.
+    spare: Vec<Task<'p>>,
     shapes: usize,
     vertices: usize,
     expression_depth: u32,
     /// Where in the tree the running rule is, for messages about limits.
-    pub running: Option<Arc<Step>>,
+    pub running: Option<StepId>,
     /// Blocks within blocks that are being derived completely.
     blocks: u32,
     /// Of the shape that is being recomposed.
     pub sources: Option<Sources>,
+    pub steps: Steps<'p>,
 }
 
 /// A shape waiting for its rule.
-pub struct Task {
+pub struct Task<'p> {
     pub shape: Shape,
-    pub symbol: Symbol,
+    pub symbol: Symbol<'p>,
     pub args: Vec<Value>,
-    pub step: Arc<Step>,
+    pub step: StepId,
 }
 
 /// What a shape is called.
-#[derive(Clone, Debug)]
-pub enum Symbol {
+#[derive(Clone, Copy, Debug)]
+pub enum Symbol<'p> {
     Rule(RuleId),
     /// No rule: a leaf.
-    Leaf(Arc<str>),
-}
-
-/// A place in the tree of shapes.
-#[derive(Debug)]
-pub struct Step {
-    pub parent: Option<Arc<Step>>,
-    /// Number of this shape among its parent's children.
-    pub index: u32,
-    pub depth: u32,
-    pub name: Arc<str>,
-}
-
-impl Step {
-    /// Child indices from the root.
-    pub fn path(&self) -> Arc<[u32]> {
-        let mut path = Vec::with_capacity(self.depth as usize);
-        let mut step = self;
-        while let Some(parent) = &step.parent {
-            path.push(step.index);
-            step = parent;
-        }
-        path.reverse();
-        path.into()
-    }
-
-    /// The rules that led here, shortened in the middle: `Lot > Mass > … > Mass > Mass`.
-    fn chain(&self) -> String {
-        const ENDS: usize = 3;
-        let mut names = vec![&*self.name];
-        let mut step = self;
-        while let Some(parent) = &step.parent {
-            names.push(&parent.name);
-            step = parent;
-        }
-        names.reverse();
-        if names.len() > 2 * ENDS {
-            names.splice(ENDS..names.len() - ENDS, ["…"]);
-        }
-        names.join(" > ")
-    }
+    Leaf(&'p Arc<str>),
 }
 
 impl<'p> Derivation<'p> {
@@ -136,12 +100,14 @@ impl<'p> Derivation<'p> {
             diagnostics: Diagnostics::default(),
             warned: BTreeSet::new(),
             pending: Vec::new(),
+            spare: Vec::new(),
             shapes: 0,
             vertices: 0,
             expression_depth: 0,
             running: None,
             blocks: 0,
             sources: None,
+            steps: Steps::default(),
         }
     }
 
@@ -179,16 +145,17 @@ impl<'p> Derivation<'p> {
         let Some(first) = start::prepare(self)? else { return Ok(()) };
         self.pending.push(first);
         while let Some(task) = self.pending.pop() {
-            match &task.symbol {
-                Symbol::Leaf(_) => {
+            match task.symbol {
+                Symbol::Leaf(name) => {
                     self.note_leaf(&task);
-                    self.leaves.push(task);
+                    self.leaves.push(name, task.shape, &self.steps, task.step);
                 }
                 Symbol::Rule(rule) => {
-                    let rule = *rule;
-                    self.running = Some(task.step.clone());
-                    let children = self.derive_rule(rule, task)?;
-                    self.pending.extend(children.into_iter().rev());
+                    self.running = Some(task.step);
+                    let children = std::mem::take(&mut self.spare);
+                    let mut children = self.derive_rule(rule, task, children)?;
+                    self.pending.extend(children.drain(..).rev());
+                    self.spare = children;
                     self.check_pending(rule)?;
                 }
             }
@@ -197,8 +164,8 @@ impl<'p> Derivation<'p> {
     }
 
     /// Child numbers from the root to the shape whose rule runs; none before the first rule.
-    pub fn path(&self) -> Arc<[u32]> {
-        self.running.as_ref().map_or_else(|| [].into(), |step| step.path())
+    pub fn path(&self) -> Path {
+        self.running.map_or_else(Path::new, |step| self.steps.path(step))
     }
 
     fn check_pending(&mut self, rule: RuleId) -> Outcome<()> {
@@ -262,12 +229,12 @@ impl<'p> Derivation<'p> {
     }
 
     /// A child's place in the tree; refuses to go too deep.
-    pub fn step(&mut self, parent: &Arc<Step>, index: u32, name: Arc<str>, span: Span) -> Outcome<Arc<Step>> {
+    pub fn step(&mut self, parent: StepId, index: u32, name: &'p Arc<str>, span: Span) -> Outcome<StepId> {
         let limit = self.limits.max_depth;
-        if parent.depth >= limit {
+        if self.steps.depth(parent) >= limit {
             return self.stop("cga::limit-depth", span, format!("rules go deeper than {limit} in `{name}`"));
         }
-        Ok(Arc::new(Step { parent: Some(parent.clone()), index, depth: parent.depth + 1, name }))
+        Ok(self.steps.child(parent, index, name))
     }
 
     pub fn enter_expression(&mut self, span: Span) -> Outcome<()> {
@@ -302,8 +269,8 @@ impl<'p> Derivation<'p> {
     /// An error that ends the derivation, with the chain of rules that led to it.
     fn stop<T>(&mut self, code: &'static str, span: Span, message: String) -> Outcome<T> {
         let mut diagnostic = Diagnostic::error(code, span, message);
-        if let Some(step) = &self.running {
-            diagnostic = diagnostic.help(format!("rules: {}", step.chain()));
+        if let Some(step) = self.running {
+            diagnostic = diagnostic.help(format!("rules: {}", self.steps.chain(step)));
         }
         self.diagnostics.push(diagnostic);
         Err(Stop)

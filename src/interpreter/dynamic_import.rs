@@ -42,5 +42,5 @@ pub fn instantiate(
 }
 
 fn set(shape: &mut Shape, id: AttributeId, value: Value) {
-    std::sync::Arc::make_mut(&mut shape.attributes)[id.0 as usize] = value;
+    std::sync::Arc::make_mut(&mut shape.state_mut().attributes)[id.0 as usize] = value;
 }

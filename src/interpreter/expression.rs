@@ -5,6 +5,8 @@
 
 use std::sync::Arc;
 
+use smallvec::SmallVec;
+
 use super::arithmetic;
 use super::choice;
 use super::derivation::Derivation;
@@ -25,6 +27,9 @@ pub enum Evaluated {
     Word(Word),
 }
 
+/// Arguments of one call, in place up to the usual number.
+pub type EvaluatedArgs = SmallVec<[Evaluated; 6]>;
+
 impl<'p> Derivation<'p> {
     /// Evaluates an expression; only a met limit stops it.
     pub fn eval(&mut self, expr: &'p Expr, env: &Env) -> Outcome<Value> {
@@ -43,7 +48,7 @@ impl<'p> Derivation<'p> {
             ExprKind::Bool(b) => Ok(Value::Bool(*b)),
             ExprKind::String(s) => Ok(Value::String(s.clone())),
             ExprKind::Slot(slot) => Ok(env.slots.get(*slot as usize).cloned().unwrap_or(Value::Float(0.0))),
-            ExprKind::Attribute(id) => Ok(env.shape.attributes[id.0 as usize].clone()),
+            ExprKind::Attribute(id) => Ok(env.shape.state.attributes[id.0 as usize].clone()),
             ExprKind::BuiltinAttribute(attr) => Ok(attribute::read(self, *attr, env.shape)),
             ExprKind::Array(rows) => array::construct(self, rows, expr.span, env),
             ExprKind::Range { from, step, to } => array::range(self, from, step.as_deref(), to, env),
@@ -110,9 +115,8 @@ impl<'p> Derivation<'p> {
         self.eval(&function.body, &base.with_slots(&slots))
     }
 
-    pub fn eval_args(&mut self, args: &'p [Arg], env: &Env) -> Outcome<Vec<Evaluated>> {
-        // Collecting results would not know the length.
-        let mut list = Vec::with_capacity(args.len());
+    pub fn eval_args(&mut self, args: &'p [Arg], env: &Env) -> Outcome<EvaluatedArgs> {
+        let mut list = EvaluatedArgs::new();
         for arg in args {
             list.push(self.eval_arg(arg, env)?);
         }
@@ -200,7 +204,7 @@ fn simple(expr: &Expr, env: &Env) -> Option<Value> {
         ExprKind::Bool(b) => Value::Bool(*b),
         ExprKind::String(s) => Value::String(Arc::clone(s)),
         ExprKind::Slot(slot) => env.slots.get(*slot as usize)?.clone(),
-        ExprKind::Attribute(id) => env.shape.attributes.get(id.0 as usize)?.clone(),
+        ExprKind::Attribute(id) => env.shape.state.attributes.get(id.0 as usize)?.clone(),
         _ => return None,
     })
 }

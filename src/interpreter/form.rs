@@ -22,11 +22,35 @@ pub struct Form {
     pub normals: Vec<DVec3>,
     /// Index into `materials` plus one per face, 0 for none; empty where no face has a material of its own.
     pub face_materials: Vec<u16>,
-    pub materials: Arc<[Appearance]>,
+    pub materials: Materials,
     /// Groups and tags, where there are any.
     pub labels: Option<Box<Labels>>,
     /// An inserted asset as it came (`geometry.isInstanced`).
     pub instanced: bool,
+}
+
+/// Shared materials, most often none.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Materials(Option<Arc<[Appearance]>>);
+
+impl std::ops::Deref for Materials {
+    type Target = [Appearance];
+
+    fn deref(&self) -> &[Appearance] {
+        self.0.as_deref().unwrap_or_default()
+    }
+}
+
+impl From<Vec<Appearance>> for Materials {
+    fn from(list: Vec<Appearance>) -> Self {
+        Materials((!list.is_empty()).then(|| list.into()))
+    }
+}
+
+impl FromIterator<Appearance> for Materials {
+    fn from_iter<I: IntoIterator<Item = Appearance>>(materials: I) -> Self {
+        materials.into_iter().collect::<Vec<_>>().into()
+    }
 }
 
 impl Form {

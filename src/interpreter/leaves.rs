@@ -4,19 +4,21 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::appearance::Appearance;
-use super::derivation::{Symbol, Task};
 use super::form::Form;
 use super::material::Material;
+use super::shape::Shape;
+use super::steps::{StepId, Steps};
 use super::tree::{Leaf, Scalar};
 
 #[derive(Default)]
-pub struct Leaves {
+pub struct Leaves<'p> {
     list: Vec<Leaf>,
+    names: Names<'p>,
     attributes: Arc<[(Arc<str>, Scalar)]>,
     materials: MaterialTable,
 }
 
-impl Leaves {
+impl<'p> Leaves<'p> {
     pub fn set_attributes(&mut self, attributes: Arc<[(Arc<str>, Scalar)]>) {
         self.attributes = attributes;
     }
@@ -26,19 +28,18 @@ impl Leaves {
     }
 
     /// Adds a leaf: one entry per material its faces have of their own. Shapes without geometry leave nothing.
-    pub fn push(&mut self, mut task: Task) {
-        let Symbol::Leaf(rule) = &task.symbol else { return };
-        let rule = rule.clone();
-        task.shape.bake();
-        let form = std::mem::take(&mut task.shape.form);
+    pub fn push(&mut self, name: &'p Arc<str>, mut shape: Shape, steps: &Steps<'p>, step: StepId) {
+        shape.bake();
+        let form = std::mem::take(&mut shape.form);
         if form.is_empty() {
             return;
         }
-        let path = task.step.path();
+        let path = steps.path(step);
+        let rule = self.names.own(name);
         for (own, part) in parts_by_material(form) {
             let appearance = match own.and_then(|i| part.materials.get(i)) {
-                Some(below) => Arc::new(task.shape.appearance.over(below)),
-                None => task.shape.appearance.clone(),
+                Some(below) => Arc::new(shape.state.appearance.over(below)),
+                None => shape.state.appearance.clone(),
             };
             let material = self.materials.intern(&appearance);
             let mesh = Arc::try_unwrap(part).map_or_else(|shared| shared.mesh.clone(), |form| form.mesh);
@@ -62,6 +63,27 @@ fn parts_by_material(form: Arc<Form>) -> Vec<(Option<usize>, Arc<Form>)> {
     let mut groups: Vec<_> = groups.into_iter().collect();
     groups.sort_by_key(|(_, faces)| faces[0]);
     groups.into_iter().map(|(m, faces)| (index(m), Arc::new(form.part(&faces)))).collect()
+}
+
+/// Copies of the program's names, one each for the whole tree: counting references to the program's own would make
+/// threads that derive at the same time wait for each other.
+#[derive(Default)]
+struct Names<'p> {
+    last: Option<(&'p Arc<str>, Arc<str>)>,
+    known: BTreeMap<&'p str, Arc<str>>,
+}
+
+impl<'p> Names<'p> {
+    fn own(&mut self, name: &'p Arc<str>) -> Arc<str> {
+        if let Some((last, own)) = &self.last
+            && std::ptr::eq(*last, name)
+        {
+            return own.clone();
+        }
+        let own = self.known.entry(name).or_insert_with(|| Arc::from(&**name)).clone();
+        self.last = Some((name, own.clone()));
+        own
+    }
 }
 
 /// Equal materials are one.

@@ -18,7 +18,7 @@ pub struct Dressed {
 impl Dressed {
     /// Nothing, shown as the shape is.
     pub fn empty(shape: &Shape) -> Dressed {
-        Dressed { form: Arc::default(), appearance: shape.appearance.clone() }
+        Dressed { form: Arc::default(), appearance: shape.state.appearance.clone() }
     }
 }
 
@@ -127,14 +127,14 @@ impl Appended {
 /// Attribute values that all shapes agree on; the current shape keeps its own where they do not.
 pub fn take_common_attributes(shape: &mut Shape, parts: &[Shape]) {
     let Some(first) = parts.first() else { return };
-    if parts.iter().all(|p| Arc::ptr_eq(&p.attributes, &first.attributes)) {
-        shape.attributes = first.attributes.clone();
+    if parts.iter().all(|p| Arc::ptr_eq(&p.state.attributes, &first.state.attributes)) {
+        shape.state_mut().attributes = first.state.attributes.clone();
         return;
     }
-    for i in 0..shape.attributes.len() {
-        let value = &first.attributes[i];
-        if *value != shape.attributes[i] && parts.iter().all(|p| p.attributes[i] == *value) {
-            Arc::make_mut(&mut shape.attributes)[i] = value.clone();
+    for i in 0..shape.state.attributes.len() {
+        let value = &first.state.attributes[i];
+        if *value != shape.state.attributes[i] && parts.iter().all(|p| p.state.attributes[i] == *value) {
+            Arc::make_mut(&mut shape.state_mut().attributes)[i] = value.clone();
         }
     }
 }

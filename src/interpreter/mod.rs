@@ -40,6 +40,7 @@ pub mod seed;
 mod shape;
 mod solids;
 mod start;
+pub mod steps;
 mod streets;
 mod subderivation;
 mod successor;

@@ -22,7 +22,7 @@ pub struct Recomposed {
 /// of the world.
 pub fn recompose(sources: &Sources, shapes: &[Shape]) -> Recomposed {
     let with_faces: Vec<&Shape> = shapes.iter().filter(|s| !s.form.mesh.faces.is_empty()).collect();
-    let dressed = |s: &&Shape| Dressed { form: s.form.clone(), appearance: s.appearance.clone() };
+    let dressed = |s: &&Shape| Dressed { form: s.form.clone(), appearance: s.state.appearance.clone() };
     let parts = appended(&with_faces.iter().map(dressed).collect::<Vec<_>>());
     let of_parts: Vec<u32> = with_faces.iter().flat_map(|s| sources_of(s)).collect();
     let shown: BTreeSet<u32> = of_parts.iter().copied().filter(|&s| s != NONE).collect();

@@ -35,7 +35,7 @@ impl<'p> Derivation<'p> {
         });
         let made = recompose(&sources, &pieces);
         take_common_attributes(shape, &pieces);
-        shape.appearance = made.dressed.appearance;
+        shape.state_mut().appearance = made.dressed.appearance;
         shape.replace(Arc::unwrap_or_clone(made.dressed.form));
         // What the vertices are to the shape around this one.
         let outer_source = |old: &Arc<[u32]>, source: u32| old.get(source as usize).copied().unwrap_or(NONE);

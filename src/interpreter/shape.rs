@@ -6,9 +6,11 @@
 //! ([`Shape::bake`]). A shape that was never transformed therefore keeps its coordinates bit for bit, and a size of 0
 //! flattens without destroying (reference 3.2).
 
+use std::rc::Rc;
 use std::sync::Arc;
 
 use glam::{DMat3, DVec3};
+use smallvec::SmallVec;
 
 use super::appearance::Appearance;
 use super::context::Trail;
@@ -26,14 +28,32 @@ pub struct Scope {
     pub size: DVec3,
 }
 
-/// The last component and scope split in the ancestry (reference 5.2, 5.3).
+/// The component split that made a shape or an ancestor (reference 5.2), the same for all pieces of one selector.
 #[derive(Clone, Debug)]
-pub struct Lineage {
-    pub comp_selector: Arc<str>,
-    pub comp_index: f64,
-    pub comp_total: f64,
-    pub split_index: f64,
-    pub split_total: f64,
+pub struct CompSplit {
+    pub selector: Arc<str>,
+    pub total: f64,
+}
+
+impl CompSplit {
+    /// To be shared by the pieces of one selector.
+    pub fn shared(selector: &Arc<str>, total: usize) -> Option<Rc<CompSplit>> {
+        Some(Rc::new(CompSplit { selector: selector.clone(), total: total as f64 }))
+    }
+}
+
+/// What few operations change: shared by a shape and its descendants until then.
+#[derive(Clone, Debug)]
+pub struct State {
+    pub appearance: Arc<Appearance>,
+    /// One per uv set that was set up, sorted by set.
+    pub projections: SmallVec<[(u8, Projection); 1]>,
+    /// Current values of the program's attributes and constants, by id.
+    pub attributes: Arc<Vec<Value>>,
+    /// The number `set(seedian, …)` gave, for reading it back.
+    pub seedian: Option<f64>,
+    pub trim_horizontal: bool,
+    pub trim_vertical: bool,
 }
 
 #[derive(Clone, Debug)]
@@ -43,20 +63,18 @@ pub struct Shape {
     pub binding: Scope,
     pub scope: Scope,
     pub pivot: Frame,
-    pub appearance: Arc<Appearance>,
-    /// One per uv set that was set up, sorted by set.
-    pub projections: Arc<Vec<(u8, Projection)>>,
-    /// Current values of the program's attributes and constants, by id.
-    pub attributes: Arc<Vec<Value>>,
-    pub lineage: Lineage,
+    pub state: Rc<State>,
+    /// `None` before the first component split.
+    pub comp: Option<Rc<CompSplit>>,
+    /// Number in the last component split; -1 before the first.
+    pub comp_index: i32,
+    /// Number in the last scope split, -1 before the first, and how many pieces it made.
+    pub split_index: i32,
+    pub split_total: u32,
     pub seed: Seed,
     /// The shapes it was made from, kept only where a query may ask.
     pub trail: Option<Arc<Trail>>,
-    /// The number `set(seedian, …)` gave, for reading it back.
-    pub seedian: Option<f64>,
-    pub trim_horizontal: bool,
-    pub trim_vertical: bool,
-    pub trim_source: Option<TrimSource>,
+    pub trim_source: Option<Rc<TrimSource>>,
     /// Sources of the form's vertices while a shape is recomposed.
     pub provenance: Option<Arc<[u32]>>,
 }
@@ -93,6 +111,11 @@ impl Scope {
 }
 
 impl Shape {
+    /// The state of this shape alone, to change.
+    pub fn state_mut(&mut self) -> &mut State {
+        Rc::make_mut(&mut self.state)
+    }
+
     /// Translation of the scope in pivot coordinates.
     pub fn translation(&self) -> DVec3 {
         self.pivot.local_from_world(self.scope.frame.origin)

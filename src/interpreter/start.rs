@@ -1,17 +1,19 @@
 //! The first shape. In: the host's [`StartShape`](super::StartShape). Out: the object frame, the evaluated
 //! attributes, and the task the derivation begins with (reference 2.6, 3.3).
 
+use std::rc::Rc;
 use std::sync::Arc;
 
 use glam::{DMat3, DVec3};
+use smallvec::SmallVec;
 
-use super::derivation::{Derivation, Step, Symbol, Task};
+use super::derivation::{Derivation, Symbol, Task};
 use super::environment::Env;
 use super::form::Form;
 use super::limits::{Outcome, Stop};
 use super::outline::{self, Outline};
 use super::placement::{Frame, perpendicular};
-use super::shape::{Lineage, Scope, Shape};
+use super::shape::{Scope, Shape, State};
 use super::streets::Streets;
 use super::tree::Scalar;
 use super::value::Value;
@@ -20,7 +22,7 @@ use crate::geometry::Mesh;
 use crate::source::{SourceId, Span};
 
 /// Sets up the run; `None` where there is nothing to derive.
-pub fn prepare<'p>(run: &mut Derivation<'p>) -> Outcome<Option<Task>> {
+pub fn prepare<'p>(run: &mut Derivation<'p>) -> Outcome<Option<Task<'p>>> {
     let Some(rule) = start_rule(run) else { return Err(Stop) };
     run.start_rule = run.program.rule(rule).name.clone();
     let span = run.program.rule(rule).span;
@@ -41,7 +43,7 @@ pub fn prepare<'p>(run: &mut Derivation<'p>) -> Outcome<Option<Task>> {
     run.initial = Some(shape.clone());
     evaluate_attributes(run, &mut shape)?;
     run.leaves.set_attributes(exported(run, &shape));
-    let step = Arc::new(Step { parent: None, index: 0, depth: 0, name: run.start_rule.clone() });
+    let step = run.steps.root(&run.program.rule(rule).name);
     Ok(Some(Task { shape, symbol: Symbol::Rule(rule), args: Vec::new(), step }))
 }
 
@@ -107,22 +109,26 @@ fn object_frame(mesh: &Mesh) -> Frame {
 fn initial_shape(mesh: Mesh, run: &Derivation) -> Shape {
     let flat = Scope { frame: run.object, size: DVec3::ZERO };
     let scope = Scope::around(&mesh.positions, run.object.axes).unwrap_or(flat);
-    let lineage =
-        Lineage { comp_selector: "".into(), comp_index: -1.0, comp_total: 0.0, split_index: -1.0, split_total: 0.0 };
+    let state = State {
+        appearance: Arc::default(),
+        projections: SmallVec::new(),
+        attributes: Arc::new(vec![Value::Float(0.0); run.program.attributes().len()]),
+        seedian: None,
+        trim_horizontal: false,
+        trim_vertical: true,
+    };
     Shape {
         form: Arc::new(Form::from_mesh(mesh)),
         binding: scope,
         scope,
         pivot: run.object,
-        appearance: Arc::default(),
-        projections: Arc::default(),
-        attributes: Arc::new(vec![Value::Float(0.0); run.program.attributes().len()]),
-        lineage,
+        state: Rc::new(state),
+        comp: None,
+        comp_index: -1,
+        split_index: -1,
+        split_total: 0,
         seed: run.start.seed,
         trail: None,
-        seedian: None,
-        trim_horizontal: false,
-        trim_vertical: true,
         trim_source: None,
         provenance: None,
     }
@@ -145,7 +151,7 @@ fn evaluate_attributes(run: &mut Derivation, shape: &mut Shape) -> Outcome<()> {
                 default_value(run, attribute, shape)?
             }
         };
-        Arc::make_mut(&mut shape.attributes)[id.0 as usize] = value;
+        Arc::make_mut(&mut shape.state_mut().attributes)[id.0 as usize] = value;
     }
     shape.seed = seed;
     Ok(())
@@ -217,7 +223,7 @@ fn constant(constant: &Constant) -> Value {
 /// Attribute values as the host sees them: without hidden ones and constants, sorted by name. A later `set` does not
 /// show (compatibility notes, "Random, attributes, reports").
 fn exported(run: &Derivation, shape: &Shape) -> Arc<[(Arc<str>, Scalar)]> {
-    let attributes = run.program.attributes().iter().zip(shape.attributes.iter());
+    let attributes = run.program.attributes().iter().zip(shape.state.attributes.iter());
     let shown = attributes.filter(|(a, _)| !a.is_const && !a.is_map && !a.annotations.hidden);
     let mut list: Vec<_> = shown.map(|(a, value)| (a.name.clone(), value.to_scalar())).collect();
     list.sort_by(|a, b| a.0.cmp(&b.0));

@@ -22,7 +22,7 @@ const BLOCK: [u64; 2] = [5 << 40, 6 << 40];
 
 impl<'p> Derivation<'p> {
     /// Runs an item that derives a block completely and works on with the result.
-    pub fn execute_inside(&mut self, item: &'p Item, place: u64, shape: &mut Shape, body: &mut Body) -> Outcome<()> {
+    pub fn execute_inside(&mut self, item: &'p Item, place: u64, shape: &mut Shape, body: &mut Body<'p>) -> Outcome<()> {
         let seeds = BLOCK.map(|kind| shape.seed.part(kind + place));
         let span = match item {
             Item::Inline { mode: InlineMode::Recompose, body: block, span } => {
@@ -62,16 +62,19 @@ impl<'p> Derivation<'p> {
 
     fn inline(&mut self, mode: InlineMode, mut pieces: Vec<Shape>, shape: &mut Shape, span: Span) {
         if pieces.len() == 1 && mode != InlineMode::Unify {
-            let (seed, seedian) = (shape.seed, shape.seedian);
+            let (seed, seedian) = (shape.seed, shape.state.seedian);
             *shape = pieces.remove(0);
-            (shape.seed, shape.seedian) = (seed, seedian);
+            shape.seed = seed;
+            if shape.state.seedian != seedian {
+                shape.state_mut().seedian = seedian;
+            }
             return;
         }
         shape.provenance = None;
         let merged = merged(shape, &pieces);
         let merged = if mode == InlineMode::Unify { solids::unified(self, merged, span) } else { merged };
         take_common_attributes(shape, &pieces);
-        shape.appearance = merged.appearance;
+        shape.state_mut().appearance = merged.appearance;
         shape.replace(std::sync::Arc::unwrap_or_clone(merged.form));
     }
 
@@ -93,7 +96,7 @@ impl<'p> Derivation<'p> {
         };
         let result = solids::combined(self, &a, &b, operator, span);
         take_common_attributes(shape, &left);
-        shape.appearance = result.appearance;
+        shape.state_mut().appearance = result.appearance;
         shape.replace(std::sync::Arc::unwrap_or_clone(result.form));
     }
 
@@ -103,7 +106,7 @@ impl<'p> Derivation<'p> {
         block: &'p Successor,
         shape: &Shape,
         seed: Seed,
-        body: &mut Body,
+        body: &mut Body<'p>,
         span: Span,
     ) -> Outcome<Vec<Shape>> {
         self.enter_block(span)?;
@@ -117,12 +120,12 @@ impl<'p> Derivation<'p> {
     }
 
     /// Derives tasks until only leaves are left.
-    pub fn finish_tasks(&mut self, mut pending: Vec<Task>, span: Span) -> Outcome<Vec<Shape>> {
-        let running = self.running.clone();
+    pub fn finish_tasks(&mut self, mut pending: Vec<Task<'p>>, span: Span) -> Outcome<Vec<Shape>> {
+        let running = self.running;
         let mut leaves = Vec::new();
         pending.reverse();
         while let Some(mut task) = pending.pop() {
-            match &task.symbol {
+            match task.symbol {
                 Symbol::Leaf(_) => {
                     task.shape.bake();
                     if !task.shape.form.is_empty() {
@@ -130,9 +133,8 @@ impl<'p> Derivation<'p> {
                     }
                 }
                 Symbol::Rule(rule) => {
-                    let rule = *rule;
-                    self.running = Some(task.step.clone());
-                    let children = self.derive_rule(rule, task)?;
+                    self.running = Some(task.step);
+                    let children = self.derive_rule(rule, &mut task, Vec::new())?;
                     pending.extend(children.into_iter().rev());
                     self.check_waiting(pending.len(), span)?;
                 }
@@ -148,6 +150,6 @@ fn merged(shape: &Shape, pieces: &[Shape]) -> Dressed {
     if pieces.is_empty() {
         return Dressed::empty(shape);
     }
-    let dressed = |p: &Shape| Dressed { form: p.form.clone(), appearance: p.appearance.clone() };
+    let dressed = |p: &Shape| Dressed { form: p.form.clone(), appearance: p.state.appearance.clone() };
     appended(&pieces.iter().map(dressed).collect::<Vec<_>>())
 }

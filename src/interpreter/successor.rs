@@ -7,23 +7,24 @@
 use std::sync::Arc;
 
 use super::choice;
-use super::derivation::{Derivation, Step, Symbol, Task};
+use super::derivation::{Derivation, Symbol, Task};
 use super::dynamic_import;
 use super::environment::Env;
 use super::limits::Outcome;
 use super::operations::{self, Pieces};
 use super::seed::Seed;
 use super::shape::{Scope, Shape};
+use super::steps::StepId;
 use super::value::Value;
 use crate::cga::builtins::Attr;
 use crate::cga::program::{Expr, Item, RuleId, Sequence, SetTarget, Successor};
 use crate::source::Span;
 
 /// A rule while it runs.
-pub struct Body {
+pub struct Body<'p> {
     pub slots: Vec<Value>,
-    children: Vec<Task>,
-    step: Arc<Step>,
+    children: Vec<Task<'p>>,
+    step: StepId,
     span: Span,
 }
 
@@ -33,12 +34,12 @@ const PIECES: u64 = 2 << 40;
 const GROUP: u64 = 3 << 40;
 
 impl<'p> Derivation<'p> {
-    /// Runs a rule on a shape.
-    pub fn derive_rule(&mut self, id: RuleId, task: Task) -> Outcome<Vec<Task>> {
+    /// Runs a rule on a shape. `children` is an empty list to fill.
+    pub fn derive_rule(&mut self, id: RuleId, task: Task<'p>, children: Vec<Task<'p>>) -> Outcome<Vec<Task<'p>>> {
         let rule = self.program.rule(id);
         let Task { mut shape, args, step, .. } = task;
         self.begin_trail(&mut shape);
-        let mut body = Body { slots: args, children: Vec::new(), step, span: rule.span };
+        let mut body = Body { slots: args, children, step, span: rule.span };
         for (i, local) in rule.locals.iter().enumerate() {
             let value = self.eval(local, &Env::new(&shape, &body.slots, GROUP + i as u64))?;
             body.slots.push(value);
@@ -53,7 +54,7 @@ impl<'p> Derivation<'p> {
         successor: &'p Successor,
         shape: &mut Shape,
         reference: &Scope,
-        body: &mut Body,
+        body: &mut Body<'p>,
     ) -> Outcome<()> {
         match successor {
             Successor::Sequence(sequence) => self.execute_sequence(sequence, shape, reference, body),
@@ -77,13 +78,13 @@ impl<'p> Derivation<'p> {
         sequence: &'p Sequence,
         shape: &mut Shape,
         reference: &Scope,
-        body: &mut Body,
+        body: &mut Body<'p>,
     ) -> Outcome<()> {
         for (place, item) in sequence.items.iter().enumerate() {
             self.execute_item(item, place as u64 + 1, shape, reference, body)?;
         }
         if sequence.implicit_leaf {
-            let name = body.step.name.clone();
+            let name = self.steps.name(body.step);
             let place = sequence.items.len() as u64 + 1;
             self.add_child(Symbol::Leaf(name), Vec::new(), place, shape, body, body.span)?;
         }
@@ -96,7 +97,7 @@ impl<'p> Derivation<'p> {
         place: u64,
         shape: &mut Shape,
         reference: &Scope,
-        body: &mut Body,
+        body: &mut Body<'p>,
     ) -> Outcome<()> {
         self.note_before(item, shape);
         match item {
@@ -129,7 +130,7 @@ impl<'p> Derivation<'p> {
             }
             Item::Leaf { symbol, args, span } => {
                 self.eval_values(args, place, shape, body)?;
-                self.add_child(Symbol::Leaf(symbol.clone()), Vec::new(), place, shape, body, *span)
+                self.add_child(Symbol::Leaf(symbol), Vec::new(), place, shape, body, *span)
             }
             Item::Discard => {
                 self.note_discarded(shape);
@@ -172,7 +173,7 @@ impl<'p> Derivation<'p> {
     }
 
     /// Runs each piece's block on the piece.
-    fn execute_pieces(&mut self, pieces: Pieces<'p>, seed: Seed, body: &mut Body) -> Outcome<()> {
+    fn execute_pieces(&mut self, pieces: Pieces<'p>, seed: Seed, body: &mut Body<'p>) -> Outcome<()> {
         body.children.reserve(pieces.len());
         for (number, (mut piece, successor)) in pieces.into_iter().enumerate() {
             piece.seed = seed.part(number as u64);
@@ -184,7 +185,7 @@ impl<'p> Derivation<'p> {
         Ok(())
     }
 
-    fn eval_values(&mut self, args: &'p [Expr], place: u64, shape: &Shape, body: &Body) -> Outcome<Vec<Value>> {
+    fn eval_values(&mut self, args: &'p [Expr], place: u64, shape: &Shape, body: &Body<'p>) -> Outcome<Vec<Value>> {
         if args.is_empty() {
             return Ok(Vec::new());
         }
@@ -194,22 +195,24 @@ impl<'p> Derivation<'p> {
 
     fn add_child(
         &mut self,
-        symbol: Symbol,
+        symbol: Symbol<'p>,
         args: Vec<Value>,
         place: u64,
         shape: &Shape,
-        body: &mut Body,
+        body: &mut Body<'p>,
         span: Span,
     ) -> Outcome<()> {
         self.count_shapes(1, span)?;
-        let name = match &symbol {
-            Symbol::Rule(rule) => self.program.rule(*rule).name.clone(),
-            Symbol::Leaf(name) => name.clone(),
+        let name = match symbol {
+            Symbol::Rule(rule) => &self.program.rule(rule).name,
+            Symbol::Leaf(name) => name,
         };
-        let step = self.step(&body.step, body.children.len() as u32, name, span)?;
+        let step = self.step(body.step, body.children.len() as u32, name, span)?;
         let mut shape = shape.clone();
         shape.seed = shape.seed.part(CHILD + place);
-        shape.seedian = None;
+        if shape.state.seedian.is_some() {
+            shape.state_mut().seedian = None;
+        }
         body.children.push(Task { shape, symbol, args, step });
         Ok(())
     }
@@ -221,13 +224,13 @@ impl<'p> Derivation<'p> {
         span: Span,
         place: u64,
         shape: &mut Shape,
-        body: &Body,
+        body: &Body<'p>,
     ) -> Outcome<()> {
         let attr = match target {
             SetTarget::Attribute(id) => {
                 let kind = self.program.attribute(*id).kind;
                 let value = kind.map_or(value.clone(), |kind| value.converted(kind));
-                Arc::make_mut(&mut shape.attributes)[id.0 as usize] = value;
+                Arc::make_mut(&mut shape.state_mut().attributes)[id.0 as usize] = value;
                 return Ok(());
             }
             SetTarget::Builtin(attr) => *attr,
@@ -235,7 +238,7 @@ impl<'p> Derivation<'p> {
                 let name = self.eval(name, &Env::new(shape, &body.slots, place))?.to_text();
                 match self.program.attribute_named(&name) {
                     Some(id) => {
-                        Arc::make_mut(&mut shape.attributes)[id.0 as usize] = value;
+                        Arc::make_mut(&mut shape.state_mut().attributes)[id.0 as usize] = value;
                         return Ok(());
                     }
                     None => match Attr::from_name(&name).filter(|info| info.writable) {

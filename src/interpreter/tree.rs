@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::material::Material;
 use super::reports::Report;
+use super::steps::Path;
 use crate::diagnostics::Diagnostics;
 use crate::geometry::Mesh;
 
@@ -21,7 +22,7 @@ pub struct Leaf {
     /// The symbol that was not rewritten, such as `Wall` or `roof.Tile`.
     pub rule: Arc<str>,
     /// Index of the leaf's creation path, for stable identity.
-    pub path: Arc<[u32]>,
+    pub path: Path,
     /// Generic attributes as the start shape had them, sorted by name and shared by all leaves: a later `set` does not
     /// show, as in CityEngine.
     pub attributes: Arc<[(Arc<str>, Scalar)]>,

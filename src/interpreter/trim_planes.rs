@@ -96,10 +96,13 @@ impl Shape {
     /// The trim planes that `trim.horizontal` and `trim.vertical` leave on and that have a vertex of the form, which is
     /// in world positions, in front of them.
     pub fn trim_planes_that_cut(&self) -> Vec<TrimPlane> {
-        let Some(source) = self.trim_source.as_ref().filter(|_| self.trim_horizontal || self.trim_vertical) else {
+        let Some(source) = self.trim_source.as_ref().filter(|_| self.state.trim_horizontal || self.state.trim_vertical)
+        else {
             return Vec::new();
         };
-        let is_on = |p: &&TrimPlane| if source.is_horizontal(p) { self.trim_horizontal } else { self.trim_vertical };
+        let is_on = |p: &&TrimPlane| {
+            if source.is_horizontal(p) { self.state.trim_horizontal } else { self.state.trim_vertical }
+        };
         let cuts = |p: &&TrimPlane| self.form.mesh.positions.iter().any(|&v| p.plane.signed_distance(v) > 0.0);
         source.parent.planes(source.face).iter().filter(cuts).filter(is_on).copied().collect()
     }

@@ -126,7 +126,7 @@ fn names(run: &mut Derivation, path: &str, input: &Input) -> Vec<Arc<str>> {
 
 /// `getMaterial(used | shape | geometry, changed | all)`.
 fn get_material(run: &Derivation, input: &Input, env: &Env) -> Value {
-    let own = &env.shape.appearance;
+    let own = &env.shape.state.appearance;
     let below = env.shape.form.first_material();
     let appearance: Appearance = match (input.word(0), below) {
         (Some(Word::Shape), _) => (**own).clone(),

@@ -6,6 +6,7 @@ use super::super::appearance::parse_color;
 use super::super::assets::builtin_image;
 use super::super::derivation::Derivation;
 use super::super::files;
+use super::super::form::Materials;
 use super::super::shape::Shape;
 use super::super::value::Value;
 use super::args::Args;
@@ -27,7 +28,7 @@ pub fn color(run: &mut Derivation, args: &Args, shape: &mut Shape) {
         let rgb = [part(run, 0), part(run, 1), part(run, 2)];
         (rgb, (args.len() > 3).then(|| part(run, 3)))
     };
-    let appearance = Arc::make_mut(&mut shape.appearance);
+    let appearance = Arc::make_mut(&mut shape.state_mut().appearance);
     appearance.color = rgb.map(Some);
     appearance.opacity = opacity.or(appearance.opacity);
 }
@@ -38,11 +39,12 @@ pub fn texture(run: &mut Derivation, args: &Args, shape: &mut Shape) {
     let path = texture_path(run, &path, args.span);
     // A host without files, and an image that cannot be read, tell nothing of channels.
     let has_alpha = !path.is_empty() && files::image(run, &path, args.span).is_ok_and(|info| info.has_alpha);
-    let appearance = Arc::make_mut(&mut shape.appearance);
+    let has_own = shape.form.first_material().is_some();
+    let appearance = Arc::make_mut(&mut shape.state_mut().appearance);
     let set_before = appearance.get(OPACITYMAP).is_some();
     if has_alpha {
         appearance.set(OPACITYMAP, Value::String(path.clone()));
-    } else if set_before || shape.form.first_material().is_some() {
+    } else if set_before || has_own {
         appearance.set(OPACITYMAP, Value::text(""));
     }
     appearance.colormap = Some(path);
@@ -65,11 +67,11 @@ pub fn texture_path(run: &mut Derivation, path: &Arc<str>, span: Span) -> Arc<st
 pub fn reset(args: &Args, shape: &mut Shape) {
     let word = args.word(0).unwrap_or(Word::Shape);
     if word != Word::Geometry {
-        shape.appearance = Arc::default();
+        shape.state_mut().appearance = Arc::default();
     }
     if word != Word::Shape {
         let form = Arc::make_mut(&mut shape.form);
         form.face_materials = Vec::new();
-        form.materials = Arc::default();
+        form.materials = Materials::default();
     }
 }

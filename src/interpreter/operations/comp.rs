@@ -4,14 +4,16 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
+use smallvec::smallvec;
+
 use super::super::derivation::Derivation;
 use super::super::environment::Env;
 use super::super::expression::facet_matches;
 use super::super::limits::Outcome;
-use super::super::shape::Shape;
+use super::super::shape::{CompSplit, Shape};
 use super::super::value::Value;
 use super::Pieces;
-use super::components::Components;
+use super::components::{Components, Group};
 use crate::cga::program::{Component, Expr, ExprKind, ExprSelector, Selector, SelectorOperator, Type};
 use crate::source::Span;
 
@@ -53,15 +55,13 @@ pub fn pieces_and_rest<'p>(
         let members: Vec<usize> = (0..owners.len()).filter(|&i| owners[i] == Some(number)).collect();
         let groups = grouped(&components, &parent, members, selector.operator);
         run.count_shapes(groups.len(), span)?;
-        let total = groups.len() as f64;
+        let split = CompSplit::shared(&selector.text, groups.len());
         for (index, group) in groups.iter().enumerate() {
             let mut shape = components.shape(&parent, group);
             if let Some(trims) = trims.as_ref().filter(|_| selector.operator == SelectorOperator::Each) {
                 components.add_trim_planes(trims, group[0], &mut shape);
             }
-            shape.lineage.comp_selector = selector.text.clone();
-            shape.lineage.comp_index = index as f64;
-            shape.lineage.comp_total = total;
+            (shape.comp, shape.comp_index) = (split.clone(), index as i32);
             out.push((shape, &selector.body));
         }
     }
@@ -71,16 +71,11 @@ pub fn pieces_and_rest<'p>(
     Ok((out, rest))
 }
 
-fn grouped(
-    components: &Components,
-    parent: &Shape,
-    members: Vec<usize>,
-    operator: SelectorOperator,
-) -> Vec<Vec<usize>> {
+fn grouped(components: &Components, parent: &Shape, members: Vec<usize>, operator: SelectorOperator) -> Vec<Group> {
     match operator {
-        SelectorOperator::Each => members.into_iter().map(|m| vec![m]).collect(),
+        SelectorOperator::Each => members.into_iter().map(|m| smallvec![m]).collect(),
         SelectorOperator::All if members.is_empty() => Vec::new(),
-        SelectorOperator::All => vec![members],
+        SelectorOperator::All => vec![members.into()],
         SelectorOperator::Connected => components.connected(parent, &members),
     }
 }
@@ -135,9 +130,7 @@ fn holds<'p>(
     env: &Env,
 ) -> Outcome<bool> {
     let mut shape = components.shape(parent, &[i]);
-    shape.lineage.comp_selector = selector.text.clone();
-    shape.lineage.comp_index = i as f64;
-    shape.lineage.comp_total = components.len() as f64;
+    (shape.comp, shape.comp_index) = (CompSplit::shared(selector.text, components.len()), i as i32);
     shape.seed = parent.seed.part(COMPONENT + i as u64);
     let value = run.eval(selector.test, &env.on_component(&shape, parent, components.facets(i)))?;
     Ok(match value {
@@ -182,12 +175,10 @@ pub fn values<'p>(
     for (number, selector) in selectors.iter().enumerate() {
         let members: Vec<usize> = (0..owners.len()).filter(|&i| owners[i] == Some(number)).collect();
         let groups = grouped(&components, &parent, members, selector.operator);
-        let total = groups.len() as f64;
+        let split = CompSplit::shared(&selector.text, groups.len());
         for (index, group) in groups.iter().enumerate() {
             let mut shape = components.shape(&parent, group);
-            shape.lineage.comp_selector = selector.text.clone();
-            shape.lineage.comp_index = index as f64;
-            shape.lineage.comp_total = total;
+            (shape.comp, shape.comp_index) = (split.clone(), index as i32);
             shape.seed = parent.seed.part(COMPONENT + group[0] as u64);
             let facets = components.facets(group[0]);
             let value = run.eval(&selector.value, &env.on_component(&shape, &parent, facets))?;

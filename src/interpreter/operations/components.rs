@@ -2,9 +2,11 @@
 //! in its own frame (reference 4.1, "Frames").
 
 use std::collections::BTreeMap;
+use std::rc::Rc;
 use std::sync::Arc;
 
 use glam::{DMat3, DVec3};
+use smallvec::SmallVec;
 
 use super::super::environment::{Facet, Place, UvSide};
 use super::super::form::Form;
@@ -15,6 +17,9 @@ use super::component_list as list;
 use crate::cga::program::Component;
 use crate::geometry::transform::flip_face;
 use crate::geometry::{Face, Mesh};
+
+/// Numbers of the components that become one shape.
+pub type Group = SmallVec<[usize; 2]>;
 
 pub struct Components {
     kind: Component,
@@ -107,7 +112,7 @@ impl Components {
     pub fn add_trim_planes(&self, parent: &Arc<TrimParent>, i: usize, shape: &mut Shape) {
         if let Some(face) = self.facets(i).first().and_then(face_of) {
             let (parent, face) = (parent.clone(), face as u32);
-            shape.trim_source = Some(TrimSource { parent, face, up: shape.pivot.axes.y_axis });
+            shape.trim_source = Some(Rc::new(TrimSource { parent, face, up: shape.pivot.axes.y_axis }));
         }
     }
 
@@ -200,7 +205,7 @@ impl Components {
 
     /// Sets of members that hang together, by lowest index: what has faces by shared edges, the rest by shared
     /// vertices.
-    pub fn connected(&self, parent: &Shape, members: &[usize]) -> Vec<Vec<usize>> {
+    pub fn connected(&self, parent: &Shape, members: &[usize]) -> Vec<Group> {
         let mut root: Vec<usize> = (0..members.len()).collect();
         fn find(root: &[usize], mut i: usize) -> usize {
             while root[i] != i {
@@ -216,7 +221,7 @@ impl Components {
                 root[a.max(b)] = a.min(b);
             }
         }
-        let mut groups: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+        let mut groups: BTreeMap<usize, Group> = BTreeMap::new();
         for (place, &member) in members.iter().enumerate() {
             groups.entry(find(&root, place)).or_default().push(member);
         }

@@ -4,7 +4,7 @@
 use super::super::derivation::Derivation;
 use super::super::environment::Env;
 use super::super::limits::Outcome;
-use super::super::shape::Shape;
+use super::super::shape::{CompSplit, Shape};
 use super::args::Args;
 use super::plan_faces::PlanFaces;
 use super::{Pieces, inner_rectangle, setback, setback_tags, setback_to_area, shape_wings};
@@ -73,12 +73,10 @@ fn shapes<'p>(run: &Derivation, parent: &Shape, selectors: &'p [Selector], regio
             SelectorOperator::All if polygons.is_empty() => Vec::new(),
             SelectorOperator::All => vec![polygons],
         };
-        let total = groups.len() as f64;
+        let split = CompSplit::shared(&selector.text, groups.len());
         for (index, group) in groups.into_iter().enumerate() {
             let mut shape = region(parent, &group, distances.as_deref(), rest == Some(number));
-            shape.lineage.comp_selector = selector.text.clone();
-            shape.lineage.comp_index = index as f64;
-            shape.lineage.comp_total = total;
+            (shape.comp, shape.comp_index) = (split.clone(), index as i32);
             out.push((shape, &selector.body));
         }
     }

@@ -4,7 +4,7 @@
 use super::super::derivation::Derivation;
 use super::super::environment::Env;
 use super::super::limits::Outcome;
-use super::super::shape::Shape;
+use super::super::shape::{CompSplit, Shape};
 use super::super::value::Value;
 use super::args::Args;
 use super::comp::{COMPONENT, Test, assign};
@@ -52,11 +52,10 @@ pub fn per_edge<'p>(
     let components = face_edges(run, &Args::new(&others, span), 0, parent, selectors);
     let owners = owners(run, &components, parent, selectors, env)?;
     let mut distances = Vec::with_capacity(owners.len());
+    let split = CompSplit::shared(&"all".into(), components.len());
     for (i, owner) in owners.iter().enumerate() {
         let mut shape = components.shape(parent, &[i]);
-        shape.lineage.comp_selector = "all".into();
-        shape.lineage.comp_index = i as f64;
-        shape.lineage.comp_total = components.len() as f64;
+        (shape.comp, shape.comp_index) = (split.clone(), i as i32);
         shape.seed = parent.seed.part(COMPONENT + i as u64);
         let distance = match args.first() {
             Some(Arg::Value(_, expr)) => {

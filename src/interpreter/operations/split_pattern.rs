@@ -89,10 +89,10 @@ impl<'p> Layout<'p> {
                 pieces.push((piece(i, form), self.bodies[slab.body]));
             }
         }
-        let total = pieces.len() as f64;
+        let total = pieces.len() as u32;
         for (index, (piece, _)) in pieces.iter_mut().enumerate() {
-            piece.lineage.split_index = index as f64;
-            piece.lineage.split_total = total;
+            piece.split_index = index as i32;
+            piece.split_total = total;
         }
         pieces
     }

@@ -49,10 +49,10 @@ pub fn pieces<'p>(
     let mut faces = faces(run, &args, &parent, &blocks)?;
     let depths = depths(run, &parent, &faces, &contents, env)?;
     let mut out: Pieces<'p> = Vec::new();
-    let total = depths.len() as f64;
+    let total = depths.len() as u32;
     let mut depths = depths.into_iter();
     let mut rests: Vec<InFace> = Vec::new();
-    let mut index = 0.0;
+    let mut index = 0;
     for face in &mut faces {
         face.sections().zip(&mut depths).for_each(|(section, depth)| section.depth = depth);
         let cut = face.cut(run, span);
@@ -64,11 +64,11 @@ pub fn pieces<'p>(
                 let group: Vec<InFace> = polygons.into_iter().map(|p| (face.number, p)).collect();
                 let observed = run.program.observes_tags().then_some(&distances[..]);
                 let mut shape = region(&parent, &group, observed, false);
-                shape.lineage.split_index = index;
-                shape.lineage.split_total = total;
+                shape.split_index = index;
+                shape.split_total = total;
                 out.push((shape, contents[section.content].1));
             }
-            index += 1.0;
+            index += 1;
         }
         rests.extend(cut.rest.into_iter().map(|p| (face.number, p)));
     }
@@ -167,8 +167,8 @@ fn depths<'p>(
     let mut shape = parent.clone();
     let mut depths = Vec::with_capacity(sections.len());
     for (index, content) in sections.iter().enumerate() {
-        shape.lineage.split_index = index as f64;
-        shape.lineage.split_total = sections.len() as f64;
+        shape.split_index = index as i32;
+        shape.split_total = sections.len() as u32;
         depths.push(run.eval_finite(contents[*content].0, &env.on_shape(&shape))?.max(0.0));
     }
     Ok(depths)

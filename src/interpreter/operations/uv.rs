@@ -54,7 +54,7 @@ pub fn setup_projection(run: &mut Derivation, args: &Args, shape: &mut Shape) {
     };
     let (u, v): (DVec3, DVec3) = (frame.axes.col(first), frame.axes.col(second));
     let projection = Projection { origin: frame.origin, axes: [u, v, u.cross(v)], tile, offset, uw_factor: uw };
-    let list = Arc::make_mut(&mut shape.projections);
+    let list = &mut shape.state_mut().projections;
     match list.binary_search_by_key(&set, |(s, _)| *s) {
         Ok(place) => list[place].1 = projection,
         Err(place) => list.insert(place, (set, projection)),
@@ -74,7 +74,7 @@ pub fn tile_size(run: &mut Derivation, args: &Args, i: usize, extent: f64) -> f6
 /// `projectUV(set)`: writes the projected coordinates of every corner.
 pub fn project(run: &mut Derivation, args: &Args, shape: &mut Shape) {
     let Some(set) = args.uv_set(run, 0) else { return };
-    let Some(projection) = shape.projections.iter().find(|(s, _)| *s == set).map(|(_, p)| *p) else {
+    let Some(projection) = shape.state.projections.iter().find(|(s, _)| *s == set).map(|(_, p)| *p) else {
         run.warn("cga::no-projection", args.span, || {
             format!("set {set} has no projection: setupProjection comes first")
         });
