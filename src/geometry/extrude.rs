@@ -2,7 +2,7 @@
 //!
 //! Words: *bottom* is the source face turned over, *top* its moved copy, *sides* stand on the source's border edges.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 use glam::{DVec2, DVec3};
 
@@ -79,7 +79,7 @@ pub fn extrude(mesh: &Mesh, direction: Direction, distance: f64) -> Option<Extru
 fn groups(mesh: &Mesh, direction: Direction) -> Vec<Vec<usize>> {
     let normals: Vec<DVec3> = mesh.faces.iter().map(|f| mesh.normal(f)).collect();
     let solid: Vec<usize> = (0..normals.len()).filter(|&i| normals[i] != DVec3::ZERO).collect();
-    if direction != Direction::FaceNormal {
+    if direction != Direction::FaceNormal || solid.len() < 2 {
         return if solid.is_empty() { Vec::new() } else { vec![solid] };
     }
     let mut leader: Vec<usize> = (0..mesh.faces.len()).collect();
@@ -106,22 +106,32 @@ fn find(leader: &[usize], mut i: usize) -> usize {
     i
 }
 
+/// Each value once, in order.
+fn sorted<T: Ord>(values: impl Iterator<Item = T>) -> Vec<T> {
+    let mut list: Vec<T> = values.collect();
+    list.sort_unstable();
+    list.dedup();
+    list
+}
+
 fn extrude_group(mesh: &Mesh, group: &[usize], direction: Direction, distance: f64, out: &mut Extruded) {
-    let vertices: BTreeSet<u32> = group.iter().flat_map(|&i| mesh.faces[i].corners()).collect();
-    let bottom_of: BTreeMap<u32, u32> =
-        (out.mesh.positions.len() as u32..).zip(&vertices).map(|(n, &v)| (v, n)).collect();
+    let vertices = sorted(group.iter().flat_map(|&i| mesh.faces[i].corners()));
+    let first = out.mesh.positions.len() as u32;
+    let place = |v: u32| vertices.binary_search(&v).expect("a corner of the group");
+    let bottom_of = |v: u32| first + place(v) as u32;
     let rise = vertices.len() as u32;
+    out.mesh.positions.reserve(2 * vertices.len());
     out.mesh.positions.extend(vertices.iter().map(|&v| mesh.positions[v as usize]));
     let moves = moves(mesh, group, &vertices, direction, distance);
     out.mesh.positions.extend(vertices.iter().zip(&moves).map(|(&v, &m)| mesh.positions[v as usize] + m));
 
-    let runs: BTreeSet<(u32, u32)> = group.iter().flat_map(|&i| mesh.faces[i].edges()).collect();
+    let runs = sorted(group.iter().flat_map(|&i| mesh.faces[i].edges()));
+    let most = runs.len() + 2 * group.len();
+    out.mesh.faces.reserve(most);
+    out.origins.reserve(most);
     for &index in group {
         let source = &mesh.faces[index];
-        let mean_move: DVec3 = source
-            .corners()
-            .map(|v| moves[(bottom_of[&v] - bottom_of[vertices.first().expect("a face has corners")]) as usize])
-            .sum();
+        let mean_move: DVec3 = source.corners().map(|v| moves[place(v)]).sum();
         let body_behind = mean_move.dot(mesh.newell(source)) < 0.0;
         let mut push = |mut face: Face, role: Role, edge: Option<u32>, turned: bool| {
             if turned {
@@ -131,18 +141,18 @@ fn extrude_group(mesh: &Mesh, group: &[usize], direction: Direction, distance: f
             out.origins.push(Origin { role, face: index as u32, edge });
         };
         let moved = |lift: u32| Face {
-            outer: source.outer.iter().map(|v| bottom_of[v] + lift).collect(),
-            holes: source.holes.iter().map(|h| h.iter().map(|v| bottom_of[v] + lift).collect()).collect(),
+            outer: source.outer.iter().map(|&v| bottom_of(v) + lift).collect(),
+            holes: source.holes.iter().map(|h| h.iter().map(|&v| bottom_of(v) + lift).collect()).collect(),
             uvs: source.uvs.clone(),
             normals: Vec::new(),
         };
         push(moved(0), Role::Bottom, None, !body_behind);
         push(moved(rise), Role::Top, None, body_behind);
         for (edge, (a, b)) in source.edges().enumerate() {
-            if runs.contains(&(b, a)) {
+            if runs.binary_search(&(b, a)).is_ok() {
                 continue;
             }
-            let (i, j) = (bottom_of[&a], bottom_of[&b]);
+            let (i, j) = (bottom_of(a), bottom_of(b));
             let role = if edge < source.outer.len() { Role::SideOuter } else { Role::SideInner };
             let uvs = side_uvs(source, edge);
             let side = Face { uvs, ..Face::new([i, j, j + rise, i + rise]) };
@@ -171,7 +181,7 @@ fn next_corner(face: &Face, corner: usize) -> usize {
 }
 
 /// How far each vertex of the group goes, in the order of `vertices`.
-fn moves(mesh: &Mesh, group: &[usize], vertices: &BTreeSet<u32>, direction: Direction, distance: f64) -> Vec<DVec3> {
+fn moves(mesh: &Mesh, group: &[usize], vertices: &[u32], direction: Direction, distance: f64) -> Vec<DVec3> {
     let along = |v: DVec3| unit(v).unwrap_or(DVec3::ZERO) * distance;
     match direction {
         Direction::FaceNormal => {

@@ -56,7 +56,7 @@ impl Face {
 
     /// Vertex indices of all corners: the outer loop, then the holes.
     pub fn corners(&self) -> impl Iterator<Item = u32> + '_ {
-        self.loops().flatten().copied()
+        self.outer.iter().chain(self.holes.iter().flatten()).copied()
     }
 
     /// Edges (from, to) of all loops in order: the face-edge index of CGA counts these.

@@ -144,16 +144,16 @@ impl<'p> Derivation<'p> {
     fn work(&mut self) -> Outcome<()> {
         let Some(first) = start::prepare(self)? else { return Ok(()) };
         self.pending.push(first);
-        while let Some(task) = self.pending.pop() {
+        while let Some(mut task) = self.pending.pop() {
             match task.symbol {
                 Symbol::Leaf(name) => {
                     self.note_leaf(&task);
-                    self.leaves.push(name, task.shape, &self.steps, task.step);
+                    self.leaves.push(name, &mut task.shape, &self.steps, task.step);
                 }
                 Symbol::Rule(rule) => {
                     self.running = Some(task.step);
                     let children = std::mem::take(&mut self.spare);
-                    let mut children = self.derive_rule(rule, task, children)?;
+                    let mut children = self.derive_rule(rule, &mut task, children)?;
                     self.pending.extend(children.drain(..).rev());
                     self.spare = children;
                     self.check_pending(rule)?;

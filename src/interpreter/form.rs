@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use glam::{DMat3, DVec3};
+use smallvec::SmallVec;
 
 use super::appearance::Appearance;
 use super::labels::Labels;
@@ -123,7 +124,7 @@ fn submesh(mesh: &Mesh, faces: &[usize]) -> Mesh {
 
 /// New numbers for old vertices, in order of first use: a list while there are few, a tree for many.
 struct Renumbering {
-    few: Vec<u32>,
+    few: SmallVec<[u32; 16]>,
     many: BTreeMap<u32, u32>,
 }
 
@@ -131,7 +132,7 @@ impl Renumbering {
     const FEW: usize = 48;
 
     fn for_at_most(most: usize) -> Self {
-        Renumbering { few: Vec::with_capacity(most.min(Self::FEW)), many: BTreeMap::new() }
+        Renumbering { few: SmallVec::with_capacity(most.min(Self::FEW)), many: BTreeMap::new() }
     }
 
     fn place(&mut self, old: u32, add: impl FnOnce()) -> u32 {

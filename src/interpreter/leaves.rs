@@ -28,7 +28,7 @@ impl<'p> Leaves<'p> {
     }
 
     /// Adds a leaf: one entry per material its faces have of their own. Shapes without geometry leave nothing.
-    pub fn push(&mut self, name: &'p Arc<str>, mut shape: Shape, steps: &Steps<'p>, step: StepId) {
+    pub fn push(&mut self, name: &'p Arc<str>, shape: &mut Shape, steps: &Steps<'p>, step: StepId) {
         shape.bake();
         let form = std::mem::take(&mut shape.form);
         if form.is_empty() {
@@ -36,6 +36,12 @@ impl<'p> Leaves<'p> {
         }
         let path = steps.path(step);
         let rule = self.names.own(name);
+        if form.face_materials.is_empty() {
+            let material = self.materials.intern(&shape.state.appearance);
+            let mesh = Arc::try_unwrap(form).map_or_else(|shared| shared.mesh.clone(), |form| form.mesh);
+            self.list.push(Leaf { rule, path, attributes: self.attributes.clone(), material, mesh });
+            return;
+        }
         for (own, part) in parts_by_material(form) {
             let appearance = match own.and_then(|i| part.materials.get(i)) {
                 Some(below) => Arc::new(shape.state.appearance.over(below)),

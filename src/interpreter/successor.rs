@@ -35,17 +35,17 @@ const GROUP: u64 = 3 << 40;
 
 impl<'p> Derivation<'p> {
     /// Runs a rule on a shape. `children` is an empty list to fill.
-    pub fn derive_rule(&mut self, id: RuleId, task: Task<'p>, children: Vec<Task<'p>>) -> Outcome<Vec<Task<'p>>> {
+    pub fn derive_rule(&mut self, id: RuleId, task: &mut Task<'p>, children: Vec<Task<'p>>) -> Outcome<Vec<Task<'p>>> {
         let rule = self.program.rule(id);
-        let Task { mut shape, args, step, .. } = task;
-        self.begin_trail(&mut shape);
-        let mut body = Body { slots: args, children, step, span: rule.span };
+        let Task { shape, args, step, .. } = task;
+        self.begin_trail(shape);
+        let mut body = Body { slots: std::mem::take(args), children, step: *step, span: rule.span };
         for (i, local) in rule.locals.iter().enumerate() {
-            let value = self.eval(local, &Env::new(&shape, &body.slots, GROUP + i as u64))?;
+            let value = self.eval(local, &Env::new(shape, &body.slots, GROUP + i as u64))?;
             body.slots.push(value);
         }
         let reference = shape.scope;
-        self.execute(&rule.successor, &mut shape, &reference, &mut body)?;
+        self.execute(&rule.successor, shape, &reference, &mut body)?;
         Ok(body.children)
     }
 
@@ -173,14 +173,14 @@ impl<'p> Derivation<'p> {
     }
 
     /// Runs each piece's block on the piece.
-    fn execute_pieces(&mut self, pieces: Pieces<'p>, seed: Seed, body: &mut Body<'p>) -> Outcome<()> {
+    fn execute_pieces(&mut self, mut pieces: Pieces<'p>, seed: Seed, body: &mut Body<'p>) -> Outcome<()> {
         body.children.reserve(pieces.len());
-        for (number, (mut piece, successor)) in pieces.into_iter().enumerate() {
+        for (number, (piece, successor)) in pieces.iter_mut().enumerate() {
             piece.seed = seed.part(number as u64);
-            self.begin_trail(&mut piece);
+            self.begin_trail(piece);
             let reference = piece.scope;
             self.count_vertices(piece.form.mesh.positions.len(), body.span)?;
-            self.execute(successor, &mut piece, &reference, body)?;
+            self.execute(successor, piece, &reference, body)?;
         }
         Ok(())
     }

@@ -13,6 +13,7 @@ mod sheet;
 use std::collections::BTreeMap;
 
 use glam::DVec3;
+use smallvec::SmallVec;
 
 use super::{Face, Mesh, Plane};
 use face::{CutFace, Side};
@@ -33,8 +34,11 @@ pub enum Origin {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Piece {
     pub mesh: Mesh,
-    pub origins: Vec<Origin>,
+    pub origins: Origins,
 }
+
+/// Origins of the faces of a piece, in place for a few.
+pub type Origins = SmallVec<[Origin; 2]>;
 
 impl Piece {
     pub fn is_empty(&self) -> bool {

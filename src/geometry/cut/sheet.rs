@@ -2,6 +2,7 @@
 //! the bit, or nothing where the cut is not that simple.
 
 use glam::DVec3;
+use smallvec::SmallVec;
 
 use super::face::{Corner, Side, corner_normals, corner_uv, start_with_first_edge};
 use super::{Cut, Piece, cut_point};
@@ -14,7 +15,11 @@ pub(super) enum Sheet {
     Both(Cut),
 }
 
+/// Values per corner, in place for faces of usual size.
+type PerCorner<T> = SmallVec<[T; 8]>;
+
 /// A corner of the boundary with the cut points put in.
+#[derive(Clone, Copy)]
 struct Place {
     corner: Corner,
     side: Side,
@@ -29,7 +34,7 @@ pub(super) fn cut(piece: &Piece, plane: &Plane, thickness: f64) -> Option<Sheet>
         return None;
     }
     let distance = |c: u32| plane.signed_distance(piece.mesh.positions[c as usize]);
-    let distances: Vec<f64> = face.outer.iter().map(|&c| distance(c)).collect();
+    let distances: PerCorner<f64> = face.outer.iter().map(|&c| distance(c)).collect();
     let has = |side: Side| distances.iter().any(|&d| Side::of(d, thickness) == side);
     match (has(Side::Behind), has(Side::Front)) {
         (true, false) => return Some(Sheet::Behind),
@@ -45,11 +50,11 @@ pub(super) fn cut(piece: &Piece, plane: &Plane, thickness: f64) -> Option<Sheet>
 }
 
 /// The corners in order; cut points are numbered after the vertices of the mesh.
-fn boundary(mesh: &Mesh, face: &Face, distances: &[f64], plane: &Plane, thickness: f64) -> Vec<Place> {
+fn boundary(mesh: &Mesh, face: &Face, distances: &[f64], plane: &Plane, thickness: f64) -> PerCorner<Place> {
     let n = face.outer.len();
     let side = |i: usize| Side::of(distances[i], thickness);
     let position = |i: usize| mesh.positions[face.outer[i] as usize];
-    let mut ring = Vec::with_capacity(n + 2);
+    let mut ring = PerCorner::with_capacity(n + 2);
     let mut fresh = mesh.positions.len() as u32;
     for i in 0..n {
         let next = (i + 1) % n;
@@ -70,7 +75,8 @@ fn boundary(mesh: &Mesh, face: &Face, distances: &[f64], plane: &Plane, thicknes
 fn run(ring: &[Place], side: Side) -> Option<(usize, usize)> {
     let n = ring.len();
     let on = |i: usize| ring[i % n].side == Side::On;
-    let [first, second] = two(&(0..n).filter(|&i| on(i)).collect::<Vec<_>>())?;
+    let mut found = (0..n).filter(|&i| on(i));
+    let (Some(first), Some(second), None) = (found.next(), found.next(), found.next()) else { return None };
     let (start, end) = if ring[(first + 1) % n].side == side { (first, second) } else { (second, first + n) };
     let inside = start + 1..end;
     let whole = !inside.is_empty() && inside.clone().all(|i| ring[i % n].side == side);
@@ -79,17 +85,13 @@ fn run(ring: &[Place], side: Side) -> Option<(usize, usize)> {
     (whole && apart).then_some((start, end - start + 1))
 }
 
-fn two(found: &[usize]) -> Option<[usize; 2]> {
-    found.try_into().ok()
-}
-
 /// The part of the face along a run of its boundary, closed by one edge along the cut.
 fn part(piece: &Piece, face: &Face, ring: &[Place], (start, length): (usize, usize)) -> Piece {
     let places = || (start..start + length).map(|i| &ring[i % ring.len()]);
-    let mut corners: Vec<Corner> = places().map(|p| p.corner).collect();
+    let mut corners: PerCorner<Corner> = places().map(|p| p.corner).collect();
     corners[length - 1].edge = None;
     start_with_first_edge(&mut corners);
-    let mut used: Vec<(u32, DVec3)> = places().map(|p| (p.corner.vertex, p.position)).collect();
+    let mut used: PerCorner<(u32, DVec3)> = places().map(|p| (p.corner.vertex, p.position)).collect();
     used.sort_unstable_by_key(|(vertex, _)| *vertex);
     used.dedup_by_key(|(vertex, _)| *vertex);
     let place = |c: &Corner| used.partition_point(|(vertex, _)| *vertex < c.vertex) as u32;
@@ -124,7 +126,7 @@ mod tests {
         let normals = (0..n).map(|i| (turn * DVec3::new(0.1 * i as f64, 0.0, 1.0)).normalize()).collect();
         Piece {
             mesh: Mesh { positions, faces: vec![Face { outer, holes: Vec::new(), uvs, normals }] },
-            origins: vec![Origin::Face(4)],
+            origins: [Origin::Face(4)].as_slice().into(),
         }
     }
 
@@ -186,7 +188,7 @@ mod tests {
         for first in 0..6u32 {
             let face = Face::new((0..6).map(|i| (i + first) % 6).collect::<Loop>());
             let mesh = Mesh { positions: positions.clone(), faces: vec![face] };
-            let piece = Piece { mesh, origins: vec![Origin::Face(0)] };
+            let piece = Piece { mesh, origins: [Origin::Face(0)].as_slice().into() };
             let cuts = |normal, offset| compare(&piece, &Plane { normal, offset });
             for offset in [0.0, 3.0, 6.0, 7.0, 12.0] {
                 assert_eq!(cuts(DVec3::X, offset), [3.0, 7.0].contains(&offset));

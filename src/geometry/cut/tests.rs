@@ -97,7 +97,7 @@ fn a_plane_along_a_wall_makes_no_sliver() {
 fn a_flat_lot_is_just_cut_and_keeps_its_first_edge() {
     let mesh = lot(SQUARE, &[]);
     let pieces = slice(&mesh, DVec3::X, &[2.0, 5.0]);
-    assert!(pieces.iter().all(|p| p.mesh.faces.len() == 1 && p.origins == [Origin::Face(0)]));
+    assert!(pieces.iter().all(|p| p.mesh.faces.len() == 1 && p.origins[..] == [Origin::Face(0)]));
     for (piece, (from, to)) in pieces.iter().zip([(0.0, 2.0), (2.0, 5.0), (5.0, 10.0)]) {
         let outer = &piece.mesh.faces[0].outer;
         assert_eq!(piece.mesh.positions[outer[0] as usize], DVec3::new(from, 0.0, 0.0));

@@ -85,7 +85,8 @@ pub fn project(run: &mut Derivation, args: &Args, shape: &mut Shape) {
     form.instanced = false;
     let Form { mesh, .. } = form;
     for face in &mut mesh.faces {
-        let uv: CornerUvs = face.corners().map(|v| projection.uv(mesh.positions[v as usize])).collect();
+        let mut uv = CornerUvs::new();
+        face.loops().for_each(|l| uv.extend(l.iter().map(|&v| projection.uv(mesh.positions[v as usize]))));
         put(&mut face.uvs, set, uv);
     }
 }
