@@ -22,7 +22,13 @@ const BLOCK: [u64; 2] = [5 << 40, 6 << 40];
 
 impl<'p> Derivation<'p> {
     /// Runs an item that derives a block completely and works on with the result.
-    pub fn execute_inside(&mut self, item: &'p Item, place: u64, shape: &mut Shape, body: &mut Body<'p>) -> Outcome<()> {
+    pub fn execute_inside(
+        &mut self,
+        item: &'p Item,
+        place: u64,
+        shape: &mut Shape,
+        body: &mut Body<'p>,
+    ) -> Outcome<()> {
         let seeds = BLOCK.map(|kind| shape.seed.part(kind + place));
         let span = match item {
             Item::Inline { mode: InlineMode::Recompose, body: block, span } => {

@@ -156,7 +156,12 @@ impl<'p> Derivation<'p> {
     }
 
     /// Runs the blocks of pieces; what they make is given back, and no child of the running rule.
-    pub fn execute_pieces_apart(&mut self, pieces: Pieces<'p>, seed: Seed, body: &mut Body) -> Outcome<Vec<Task>> {
+    pub fn execute_pieces_apart(
+        &mut self,
+        pieces: Pieces<'p>,
+        seed: Seed,
+        body: &mut Body<'p>,
+    ) -> Outcome<Vec<Task<'p>>> {
         let children = std::mem::take(&mut body.children);
         let done = self.execute_pieces(pieces, seed, body);
         let made = std::mem::replace(&mut body.children, children);
@@ -164,7 +169,12 @@ impl<'p> Derivation<'p> {
     }
 
     /// Runs a block on a shape; what it makes is given back, and no child of the running rule.
-    pub fn execute_apart(&mut self, block: &'p Successor, shape: &mut Shape, body: &mut Body) -> Outcome<Vec<Task>> {
+    pub fn execute_apart(
+        &mut self,
+        block: &'p Successor,
+        shape: &mut Shape,
+        body: &mut Body<'p>,
+    ) -> Outcome<Vec<Task<'p>>> {
         let children = std::mem::take(&mut body.children);
         let reference = shape.scope;
         let done = self.execute(block, shape, &reference, body);
