@@ -180,17 +180,13 @@ impl Layout<'_> {
         }
     }
 
-    /// Anything between commas, as the author spaced it.
+    /// Anything between commas, as written.
     fn free_text(&self, pair: Pair<'_, Rule>) -> Vec<Doc> {
-        let span = pair.as_span();
+        let (first, end) = (pair.as_span().start(), pair.as_span().end());
         let mut docs = Vec::new();
-        for index in span.start()..span.end() {
-            let places = &self.tokens.places;
-            if index > span.start() && places[index - 1].end < places[index].start {
-                docs.push(Doc::Space);
-            }
-            docs.extend(self.token(index));
-        }
+        self.comments_before(first, &mut docs);
+        docs.push(Doc::Source(self.tokens.places[first].start, self.tokens.places[end - 1].end));
+        docs.extend(self.trailing(end - 1));
         docs
     }
 

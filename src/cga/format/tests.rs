@@ -94,6 +94,15 @@ fn the_rules_that_come_with_mansard_are_formatted() {
     }
 }
 
+/// Found by mutating rule files.
+#[test]
+fn free_text_in_annotations_stays_as_written() {
+    check(
+        "@Range(min=2, max=60 \"x\": 1\n  ] [ y\n\n const // a\n z, /* b */ 3) attr a = 1".replace("] [", "").as_str(),
+    );
+    check("@Handle(shape=Box * ^2,  translate={ 0,1 , 0} // c\n, skin=a) attr a = 1");
+}
+
 #[test]
 fn a_file_with_errors_is_not_formatted() {
     assert_eq!(formatted("A --> extrude(3\nB --> NIL"), Err("expected `,` or `)`, found `B`".to_owned()));

@@ -20,9 +20,7 @@ impl Layout<'_> {
             self.comments_before(index, &mut docs);
             docs.push(written);
         }
-        if !self.is_separator(index + 1) {
-            docs.extend(self.trailing(index));
-        }
+        docs.extend(self.trailing(index));
         docs
     }
 
@@ -30,9 +28,7 @@ impl Layout<'_> {
     pub fn closing(&self, index: usize) -> Vec<Doc> {
         let place = self.tokens.places[index];
         let mut docs = vec![Doc::Source(place.start, place.end)];
-        if !self.is_separator(index + 1) {
-            docs.extend(self.trailing(index));
-        }
+        docs.extend(self.trailing(index));
         docs
     }
 
@@ -77,8 +73,11 @@ impl Layout<'_> {
         }
     }
 
-    /// The comments behind token `index` on its line.
-    fn trailing(&self, index: usize) -> Vec<Doc> {
+    /// The comments behind token `index` on its line, unless they follow a separator there.
+    pub fn trailing(&self, index: usize) -> Vec<Doc> {
+        if self.is_separator(index + 1) {
+            return Vec::new();
+        }
         let found = self.comments_at(index + 1);
         let trailing = found.iter().take_while(|comment| self.is_trailing(comment, index + 1));
         trailing.flat_map(|c| [Doc::Space, Doc::Comment(c.start, c.end), self.after_trailing(c)]).collect()

@@ -70,7 +70,11 @@ fn merge_vertices(mesh: &mut Mesh, distance: f64) -> Vec<u32> {
     let mut place: Vec<u32> = Vec::with_capacity(mesh.positions.len());
     for (i, &p) in mesh.positions.iter().enumerate() {
         let [x, y, z] = cell(p);
-        let near = (-1..=1).flat_map(|a| (-1..=1).flat_map(move |b| (-1..=1).map(move |c| [x + a, y + b, z + c])));
+        let near = (-1..=1).flat_map(|a| {
+            (-1..=1).flat_map(move |b| {
+                (-1..=1).map(move |c| [x.saturating_add(a), y.saturating_add(b), z.saturating_add(c)])
+            })
+        });
         let candidates = near.filter_map(|key| cells.get(&key)).flatten();
         let found = candidates.copied().filter(|&v| mesh.positions[v as usize].distance(p) <= distance).min();
         place.push(found.unwrap_or(i as u32));

@@ -28,6 +28,7 @@ pub fn limits() -> Limits {
         max_expression_depth: 60,
         max_array: 500,
         max_text: 4096,
+        ..Limits::default()
     }
 }
 
