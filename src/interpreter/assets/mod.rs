@@ -17,7 +17,7 @@ mod text_file;
 
 use std::collections::BTreeMap;
 use std::path::Path;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use glam::DVec3;
 
@@ -40,6 +40,8 @@ pub struct Asset {
     pub metadata: BTreeMap<Arc<str>, Scalar>,
     /// What of the file could not be used.
     pub notes: Vec<String>,
+    /// This without what is numerically worthless, once `i` has asked for it; `None` if nothing is.
+    pub cleaned: OnceLock<Option<Arc<Asset>>>,
 }
 
 /// Why a file cannot be used.
@@ -132,7 +134,7 @@ impl Assets for NoAssets {
 impl Asset {
     pub fn new(form: Form) -> Self {
         let (low, high) = form.mesh.bounds().unwrap_or_default();
-        Asset { form, low, size: high - low, metadata: BTreeMap::new(), notes: Vec::new() }
+        Asset { form, low, size: high - low, metadata: BTreeMap::new(), notes: Vec::new(), cleaned: OnceLock::new() }
     }
 
     /// Names of the groups, in the order of their first faces.

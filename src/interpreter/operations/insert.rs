@@ -21,8 +21,7 @@ pub fn apply(run: &mut Derivation, args: &Args, shape: &mut Shape) -> Outcome<()
     let asset = load(run, args, 0);
     run.allow_vertices(asset.form.mesh.positions.len(), args.span)?;
     let words: Vec<Word> = (1..args.len()).filter_map(|i| args.word(i)).collect();
-    let clean = if words.contains(&Word::NoCleanup) { None } else { insert_cleanup::cleaned(&asset.form) };
-    let asset = clean.map_or(asset, |form| Arc::new(Asset::new(form)));
+    let asset = if words.contains(&Word::NoCleanup) { asset } else { insert_cleanup::once(asset) };
     let upright = if words.contains(&Word::ZUp) { Arc::new(z_up(&asset)) } else { asset };
     let mode = words.iter().find(|w| matches!(w, Word::KeepSizeAndPosition | Word::KeepSizeAlignPosition));
     match mode {

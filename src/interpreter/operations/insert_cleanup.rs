@@ -1,8 +1,11 @@
 //! Numerical clean-up of inserted assets (reference 4.11, `numericalCleanup`). In: an asset's form. Out: the form
 //! without edges too short to matter, spikes, and faces that have no area.
 
+use std::sync::Arc;
+
 use glam::DVec3;
 
+use super::super::assets::Asset;
 use super::super::form::Form;
 use crate::geometry::{Face, Mesh};
 
@@ -11,8 +14,14 @@ const SHORT: f64 = 1e-6;
 /// Corners whose edges run back on each other within this sine are spikes.
 const SPIKE: f64 = 1e-6;
 
+/// The asset cleaned, which is done once for all its insertions.
+pub fn once(asset: Arc<Asset>) -> Arc<Asset> {
+    let clean = || cleaned(&asset.form).map(|form| Arc::new(Asset::new(form)));
+    asset.cleaned.get_or_init(clean).clone().unwrap_or(asset)
+}
+
 /// `None` if there is nothing to clean.
-pub fn cleaned(form: &Form) -> Option<Form> {
+fn cleaned(form: &Form) -> Option<Form> {
     let (lo, hi) = form.mesh.bounds()?;
     let places = drawn_together(&form.mesh, SHORT * (hi - lo).max_element());
     let mut out = form.clone();
