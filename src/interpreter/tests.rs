@@ -12,6 +12,7 @@ mod flat;
 mod frames;
 mod groups;
 mod imports;
+mod library;
 mod limits;
 mod materials;
 mod measures;

@@ -4,7 +4,7 @@
 //! To support an operation in the interpreter, change its row's `NotYet` to `Evaluated`.
 
 use super::Status;
-use super::Status::{Evaluated, NotYet};
+use super::Status::Evaluated;
 
 macro_rules! operations {
     ($($variant:ident $name:literal $status:ident [$($signature:literal),*])*) => {
@@ -106,7 +106,7 @@ operations! {
     SetMaterial "setMaterial" Evaluated ["S[]"]
     SetNormals "setNormals" Evaluated ["{hard soft auto conform}"]
     SetPivot "setPivot" Evaluated ["{xyz yzx zxy yUp zUp} F"]
-    SetTagsFromEdgeAttrs "setTagsFromEdgeAttrs" NotYet [""]
+    SetTagsFromEdgeAttrs "setTagsFromEdgeAttrs" Evaluated [""]
     Setback "setback" Evaluated ["F F?", "F[] F?"]
     SetbackPerEdge "setbackPerEdge" Evaluated ["F F?"]
     SetbackToArea "setbackToArea" Evaluated ["F F?", "F F[] F?", "F F[] F[] F?"]

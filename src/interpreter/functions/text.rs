@@ -63,20 +63,24 @@ fn file_name(path: &str) -> &str {
     path.rfind('/').map_or(path, |i| &path[i + 1..])
 }
 
-/// `splitString(text, delimiter)`: empty parts are kept. Regular expressions (a delimiter that starts with `$`) are
-/// refused, but for `$\$`, which is a dollar sign.
+/// Largest compiled expression, bytes.
+const LARGEST_EXPRESSION: usize = 1 << 20;
+
+/// `splitString(text, delimiter)`: empty parts are kept. A delimiter that starts with `$` is a regular expression;
+/// matching takes linear time, so looking around and back references are refused.
 pub fn split(run: &mut Derivation, input: &Input) -> Value {
     let (text, delimiter) = (input.text(0), input.text(1));
-    let delimiter = match delimiter.strip_prefix('$') {
-        Some("\\$") => "$",
-        Some(expression) if !expression.is_empty() => {
-            let message = "regular expressions in `splitString` are not supported yet".into();
-            run.error("cga::not-supported-yet", input.span, message);
-            &delimiter
-        }
-        _ => &delimiter,
+    let Some(expression) = delimiter.strip_prefix('$').filter(|e| !e.is_empty()) else {
+        return Value::strings(text.split(&*delimiter).map(Into::into).collect());
     };
-    Value::strings(text.split(delimiter).map(Into::into).collect())
+    match regex::RegexBuilder::new(expression).size_limit(LARGEST_EXPRESSION).build() {
+        Ok(expression) => Value::strings(expression.split(&text).map(Into::into).collect()),
+        Err(error) => {
+            let why = error.to_string().lines().last().unwrap_or_default().trim_start_matches("error: ").to_owned();
+            run.error("cga::regular-expression", input.span, format!("not a regular expression that runs here: {why}"));
+            Value::strings(vec![text])
+        }
+    }
 }
 
 /// `replace(text, old, new)`: all occurrences.

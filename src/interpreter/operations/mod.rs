@@ -15,6 +15,7 @@ mod component_list;
 mod components;
 mod convexify;
 mod delete_holes;
+mod edge_tags;
 mod envelope;
 mod extrude;
 mod footprint;
@@ -148,6 +149,7 @@ pub fn apply(
         O::SoftenNormals => normals::soften_below(run, &args, shape),
         O::Tag => tag::tag(run, &args, shape),
         O::DeleteTags => tag::delete(&args, shape),
+        O::SetTagsFromEdgeAttrs => edge_tags::apply(run, shape),
         O::Label => label::apply(run, &args, shape),
         O::Report => report::report(run, &args),
         O::Print => report::print(run, &args)?,

@@ -144,3 +144,14 @@ B --> [ print(getTreeKey) ] print(getTreeKey) NIL"#;
     let tree = run(rules, LOT);
     assert_eq!(tree.prints, ["[]", "", "0;", "0;0;", "0;0;", "1;", "1;0;", "1;0;", "2;", "2;"]);
 }
+
+#[test]
+fn edge_attributes_become_tags() {
+    let values = EdgeValues::Strings(["main", "side", "", "side"].map(Into::into).into());
+    let host = HostData { edge_attributes: vec![EdgeAttribute { name: "kind".into(), values }], ..HostData::default() };
+    let rules = r#"Lot --> s('0.5, '1, '0.5) center(xz) setTagsFromEdgeAttrs print(geometry.tags("edgeattr", edges))
+  comp(fe) { isTagged("edgeattr.kind.main") : M. | isTagged("edgeattr.kind.side") : S. | all : N. }"#;
+    let tree = derived_with(rules, LOT, host);
+    assert_eq!(tree.prints, ["(2)[edgeattr.kind.main,edgeattr.kind.side]"]);
+    assert_eq!(["M", "S", "N"].map(|rule| count(&tree, rule)), [1, 2, 1]);
+}
