@@ -2,11 +2,13 @@
 //!
 //! In: mistakes found by any phase. Out: a [`Diagnostics`] list, rendered for people by [`render`] or as JSON lines.
 
+mod explain;
 mod render;
 mod suggest;
 
 use crate::source::Span;
 
+pub use explain::{explain, pages};
 pub use render::{Rendered, json_line, render};
 pub use suggest::suggest;
 

@@ -41,6 +41,11 @@ pub enum Command {
         #[arg(long)]
         stdin: bool,
     },
+    /// Say what a diagnostic code means, with an example and the fix
+    Explain {
+        /// Such as `cga::unknown-name`, or without `cga::`
+        code: String,
+    },
     /// Run a rule file on a footprint, or on several
     Derive(DeriveArgs),
     /// Build the meshes of a recipe's scene as binary glTF

@@ -5,6 +5,7 @@ mod build;
 mod check;
 mod derive;
 mod dump;
+mod explain;
 mod fmt;
 mod footprint;
 mod plan;
@@ -37,6 +38,7 @@ fn main() -> ExitCode {
     let result = match args.command {
         Command::Check { files, format, recipe } => check::run(&files, format, &recipe, args.quiet),
         Command::Fmt { files, check, stdin } => fmt::run(&files, check, stdin, args.quiet),
+        Command::Explain { code } => explain::run(&code),
         Command::Derive(derive) => derive::run(&derive, args.quiet),
         Command::Build { recipe, output, reports, options, work } => {
             build::run(&recipe, &output, reports.as_ref(), &options, &work, &reporter)
