@@ -142,6 +142,13 @@ const RAISED_BY_RUNS: &[&str] = &[
     "cga::too-many-parts",
     "cga::normal-angle",
     "cga::no-place",
+    "cga::boolean",
+    "cga::convexify",
+    "cga::empty-label",
+    "cga::envelope",
+    "cga::rectify",
+    "cga::reduce",
+    "cga::setback-area",
 ];
 
 /// All codes, those of the checker first.
