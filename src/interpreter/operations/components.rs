@@ -237,7 +237,7 @@ impl Components {
         match self.kind {
             Component::Faces | Component::Groups | Component::Materials => {
                 let loops = self.facets(i).iter().filter_map(face_of).flat_map(|f| mesh.faces[f].loops());
-                loops.flat_map(|l| edges(l)).collect()
+                loops.flat_map(edges).collect()
             }
             Component::Holes => {
                 let [face, hole] = self.parts[i].ends;
