@@ -8,6 +8,9 @@ pub trait Visitor<'a> {
     fn item(&mut self, _item: &'a Item) {}
 
     fn expression(&mut self, _expression: &'a Expr) {}
+
+    /// The first weight of a chain of percentages between successors.
+    fn choice(&mut self, _weight: &'a Expr) {}
 }
 
 /// Walks over a whole file.
@@ -46,6 +49,9 @@ pub fn successor<'a>(body: &'a Successor, visitor: &mut impl Visitor<'a>) {
     match body {
         Successor::Sequence(items) => items.iter().for_each(|i| item(i, visitor)),
         Successor::Case { branches, otherwise } | Successor::Stochastic { branches, otherwise } => {
+            if let (Successor::Stochastic { .. }, Some((weight, _))) = (body, branches.first()) {
+                visitor.choice(weight);
+            }
             for (test, body) in branches {
                 expression(test, visitor);
                 successor(body, visitor);

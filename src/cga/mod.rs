@@ -7,6 +7,7 @@ mod ast_walk;
 pub mod builtins;
 mod check;
 pub mod codes;
+pub mod compatibility;
 mod dump;
 mod format;
 pub mod parse;

@@ -82,7 +82,9 @@ fn problems(code: &str) -> Vec<String> {
     let text = String::from_utf8_lossy(&bytes).into_owned();
     let (diagnostics, sources) = said(&path, &text);
     let here = format!("{}/", cases().display());
-    let got: String = diagnostics.iter().map(|d| render(d, &sources, false).replace(&here, "")).collect();
+    let real = format!("{}/", cases().canonicalize().expect("the folder of the cases exists").display());
+    let shown = |d| render(d, &sources, false).replace(&here, "").replace(&real, "");
+    let got: String = diagnostics.iter().map(shown).collect();
     let mut out = Vec::new();
     if !diagnostics.iter().any(|d| d.code == code) {
         let found: Vec<&str> = diagnostics.iter().map(|d| d.code).collect();

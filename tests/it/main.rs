@@ -1,6 +1,7 @@
 //! Integration tests, one binary. In: the built program and the repository. Out: what a user would see, held.
 
 mod bad_input;
+mod compatibility;
 mod diagnostics;
 mod golden;
 mod pipeline;

@@ -23,6 +23,9 @@ pub enum Command {
     Check {
         #[arg(required = true, value_name = "FILE")]
         files: Vec<PathBuf>,
+        /// Report what rule files written for CityEngine meet here; folders are searched for .cga files
+        #[arg(long)]
+        cityengine: bool,
         /// `json` prints one object per line
         #[arg(long, value_enum, default_value_t = Format::Text)]
         format: Format,

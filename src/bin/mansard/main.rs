@@ -3,6 +3,7 @@
 mod args;
 mod build;
 mod check;
+mod compatibility;
 mod derive;
 mod dump;
 mod explain;
@@ -36,7 +37,8 @@ fn main() -> ExitCode {
     let args = Args::parse();
     let reporter = Reporter::new(args.quiet);
     let result = match args.command {
-        Command::Check { files, format, recipe } => check::run(&files, format, &recipe, args.quiet),
+        Command::Check { files, cityengine: true, format, recipe } => compatibility::run(&files, format, &recipe),
+        Command::Check { files, cityengine: false, format, recipe } => check::run(&files, format, &recipe, args.quiet),
         Command::Fmt { files, check, stdin } => fmt::run(&files, check, stdin, args.quiet),
         Command::Explain { code } => explain::run(&code),
         Command::Derive(derive) => derive::run(&derive, args.quiet),

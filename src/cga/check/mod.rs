@@ -34,6 +34,7 @@ use std::path::Path;
 use super::program::Program;
 use crate::diagnostics::Diagnostics;
 use crate::source::{Access, SourceFile, SourceMap};
+pub use lint::release;
 
 /// What a program is compiled for.
 #[derive(Clone, Debug, Default)]

@@ -12,6 +12,8 @@ mod tests;
 mod unreachable;
 mod unused_rule;
 
+pub use old_versions::release;
+
 use super::instance::Tables;
 use super::load::LoadedFile;
 use crate::cga::program::Program;
