@@ -76,8 +76,6 @@ codes! {
     WEIGHTS_OVER_100 "cga::weights-over-100"
     /// A name of an older version that has a new one.
     DEPRECATED "cga::deprecated"
-    /// Known CGA, but not evaluated by this version.
-    NOT_SUPPORTED_YET "cga::not-supported-yet"
     /// A branch, or a selector, that is never taken.
     UNREACHABLE "cga::unreachable"
     /// A rule or function that calls itself in every case.

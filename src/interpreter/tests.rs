@@ -4,6 +4,7 @@ mod along_uv;
 mod component_properties;
 mod components;
 mod context;
+mod dispatch;
 mod edges;
 mod editing;
 mod expressions;

@@ -1,8 +1,6 @@
 //! In: a dotted name such as `scope.sx`. Out: the built-in attribute, its type, and whether `set` may write it
 //! (reference 5).
 
-use super::Status;
-use super::Status::Evaluated;
 use crate::cga::program::{Axis, Type};
 
 /// A built-in attribute of a shape.
@@ -87,19 +85,18 @@ pub struct AttrInfo {
     pub writable: bool,
     /// The row is an old spelling of another row.
     pub deprecated: bool,
-    pub status: Status,
 }
 
-const fn row(name: &'static str, attr: Attr, kind: Type, writable: bool, status: Status) -> AttrInfo {
-    AttrInfo { name, attr, kind, writable, deprecated: false, status }
+const fn row(name: &'static str, attr: Attr, kind: Type, writable: bool) -> AttrInfo {
+    AttrInfo { name, attr, kind, writable, deprecated: false }
 }
 
-const fn old(name: &'static str, attr: Attr, kind: Type, writable: bool, status: Status) -> AttrInfo {
-    AttrInfo { name, attr, kind, writable, deprecated: true, status }
+const fn old(name: &'static str, attr: Attr, kind: Type, writable: bool) -> AttrInfo {
+    AttrInfo { name, attr, kind, writable, deprecated: true }
 }
 
 const fn material(name: &'static str, attr: MaterialAttr, kind: Type) -> AttrInfo {
-    row(name, Attr::Material(attr), kind, true, Evaluated)
+    row(name, Attr::Material(attr), kind, true)
 }
 
 macro_rules! maps {
@@ -121,39 +118,39 @@ static MAPS: &[AttrInfo] = maps! {
 };
 
 static ROWS: &[AttrInfo] = &[
-    row("scope.tx", Attr::ScopeTranslation(Axis::X), Type::Float, true, Evaluated),
-    row("scope.ty", Attr::ScopeTranslation(Axis::Y), Type::Float, true, Evaluated),
-    row("scope.tz", Attr::ScopeTranslation(Axis::Z), Type::Float, true, Evaluated),
-    row("scope.rx", Attr::ScopeRotation(Axis::X), Type::Float, true, Evaluated),
-    row("scope.ry", Attr::ScopeRotation(Axis::Y), Type::Float, true, Evaluated),
-    row("scope.rz", Attr::ScopeRotation(Axis::Z), Type::Float, true, Evaluated),
-    row("scope.sx", Attr::ScopeSize(Axis::X), Type::Float, true, Evaluated),
-    row("scope.sy", Attr::ScopeSize(Axis::Y), Type::Float, true, Evaluated),
-    row("scope.sz", Attr::ScopeSize(Axis::Z), Type::Float, true, Evaluated),
-    row("scope.elevation", Attr::ScopeElevation, Type::Float, false, Evaluated),
-    row("pivot.px", Attr::PivotPosition(Axis::X), Type::Float, true, Evaluated),
-    row("pivot.py", Attr::PivotPosition(Axis::Y), Type::Float, true, Evaluated),
-    row("pivot.pz", Attr::PivotPosition(Axis::Z), Type::Float, true, Evaluated),
-    row("pivot.ox", Attr::PivotOrientation(Axis::X), Type::Float, true, Evaluated),
-    row("pivot.oy", Attr::PivotOrientation(Axis::Y), Type::Float, true, Evaluated),
-    row("pivot.oz", Attr::PivotOrientation(Axis::Z), Type::Float, true, Evaluated),
-    row("initialShape.name", Attr::InitialShapeName, Type::String, false, Evaluated),
-    row("initialShape.startRule", Attr::InitialShapeStartRule, Type::String, false, Evaluated),
-    old("initialShape.symbol", Attr::InitialShapeStartRule, Type::String, false, Evaluated),
-    row("initialShape.origin.px", Attr::InitialShapeOrigin(Axis::X), Type::Float, false, Evaluated),
-    row("initialShape.origin.py", Attr::InitialShapeOrigin(Axis::Y), Type::Float, false, Evaluated),
-    row("initialShape.origin.pz", Attr::InitialShapeOrigin(Axis::Z), Type::Float, false, Evaluated),
-    row("initialShape.origin.ox", Attr::InitialShapeOrientation(Axis::X), Type::Float, false, Evaluated),
-    row("initialShape.origin.oy", Attr::InitialShapeOrientation(Axis::Y), Type::Float, false, Evaluated),
-    row("initialShape.origin.oz", Attr::InitialShapeOrientation(Axis::Z), Type::Float, false, Evaluated),
-    row("seedian", Attr::Seedian, Type::Float, true, Evaluated),
-    row("split.index", Attr::SplitIndex, Type::Float, false, Evaluated),
-    row("split.total", Attr::SplitTotal, Type::Float, false, Evaluated),
-    row("comp.sel", Attr::CompSel, Type::String, false, Evaluated),
-    row("comp.index", Attr::CompIndex, Type::Float, false, Evaluated),
-    row("comp.total", Attr::CompTotal, Type::Float, false, Evaluated),
-    row("trim.horizontal", Attr::TrimHorizontal, Type::Bool, true, Evaluated),
-    row("trim.vertical", Attr::TrimVertical, Type::Bool, true, Evaluated),
+    row("scope.tx", Attr::ScopeTranslation(Axis::X), Type::Float, true),
+    row("scope.ty", Attr::ScopeTranslation(Axis::Y), Type::Float, true),
+    row("scope.tz", Attr::ScopeTranslation(Axis::Z), Type::Float, true),
+    row("scope.rx", Attr::ScopeRotation(Axis::X), Type::Float, true),
+    row("scope.ry", Attr::ScopeRotation(Axis::Y), Type::Float, true),
+    row("scope.rz", Attr::ScopeRotation(Axis::Z), Type::Float, true),
+    row("scope.sx", Attr::ScopeSize(Axis::X), Type::Float, true),
+    row("scope.sy", Attr::ScopeSize(Axis::Y), Type::Float, true),
+    row("scope.sz", Attr::ScopeSize(Axis::Z), Type::Float, true),
+    row("scope.elevation", Attr::ScopeElevation, Type::Float, false),
+    row("pivot.px", Attr::PivotPosition(Axis::X), Type::Float, true),
+    row("pivot.py", Attr::PivotPosition(Axis::Y), Type::Float, true),
+    row("pivot.pz", Attr::PivotPosition(Axis::Z), Type::Float, true),
+    row("pivot.ox", Attr::PivotOrientation(Axis::X), Type::Float, true),
+    row("pivot.oy", Attr::PivotOrientation(Axis::Y), Type::Float, true),
+    row("pivot.oz", Attr::PivotOrientation(Axis::Z), Type::Float, true),
+    row("initialShape.name", Attr::InitialShapeName, Type::String, false),
+    row("initialShape.startRule", Attr::InitialShapeStartRule, Type::String, false),
+    old("initialShape.symbol", Attr::InitialShapeStartRule, Type::String, false),
+    row("initialShape.origin.px", Attr::InitialShapeOrigin(Axis::X), Type::Float, false),
+    row("initialShape.origin.py", Attr::InitialShapeOrigin(Axis::Y), Type::Float, false),
+    row("initialShape.origin.pz", Attr::InitialShapeOrigin(Axis::Z), Type::Float, false),
+    row("initialShape.origin.ox", Attr::InitialShapeOrientation(Axis::X), Type::Float, false),
+    row("initialShape.origin.oy", Attr::InitialShapeOrientation(Axis::Y), Type::Float, false),
+    row("initialShape.origin.oz", Attr::InitialShapeOrientation(Axis::Z), Type::Float, false),
+    row("seedian", Attr::Seedian, Type::Float, true),
+    row("split.index", Attr::SplitIndex, Type::Float, false),
+    row("split.total", Attr::SplitTotal, Type::Float, false),
+    row("comp.sel", Attr::CompSel, Type::String, false),
+    row("comp.index", Attr::CompIndex, Type::Float, false),
+    row("comp.total", Attr::CompTotal, Type::Float, false),
+    row("trim.horizontal", Attr::TrimHorizontal, Type::Bool, true),
+    row("trim.vertical", Attr::TrimVertical, Type::Bool, true),
     material("material.name", MaterialAttr::Name, Type::String),
     material("material.shader", MaterialAttr::Shader, Type::String),
     material("material.color.r", MaterialAttr::Color(0), Type::Float),
@@ -170,32 +167,14 @@ static ROWS: &[AttrInfo] = &[
     material("material.emissive.g", MaterialAttr::Emissive(1), Type::Float),
     material("material.emissive.b", MaterialAttr::Emissive(2), Type::Float),
     material("material.opacity", MaterialAttr::Opacity, Type::Float),
-    old(
-        "material.map3",
-        Attr::Material(MaterialAttr::Map(MapLayer::Specular, MapPart::Path)),
-        Type::String,
-        true,
-        Evaluated,
-    ),
-    old(
-        "material.map4",
-        Attr::Material(MaterialAttr::Map(MapLayer::Opacity, MapPart::Path)),
-        Type::String,
-        true,
-        Evaluated,
-    ),
-    old(
-        "material.map5",
-        Attr::Material(MaterialAttr::Map(MapLayer::Normal, MapPart::Path)),
-        Type::String,
-        true,
-        Evaluated,
-    ),
-    old("material.color.a", Attr::Material(MaterialAttr::Opacity), Type::Float, true, Evaluated),
+    old("material.map3", Attr::Material(MaterialAttr::Map(MapLayer::Specular, MapPart::Path)), Type::String, true),
+    old("material.map4", Attr::Material(MaterialAttr::Map(MapLayer::Opacity, MapPart::Path)), Type::String, true),
+    old("material.map5", Attr::Material(MaterialAttr::Map(MapLayer::Normal, MapPart::Path)), Type::String, true),
+    old("material.color.a", Attr::Material(MaterialAttr::Opacity), Type::Float, true),
     material("material.reflectivity", MaterialAttr::Reflectivity, Type::Float),
     material("material.shininess", MaterialAttr::Shininess, Type::Float),
     material("material.bumpValue", MaterialAttr::BumpValue, Type::Float),
-    old("material.bump", Attr::Material(MaterialAttr::BumpValue), Type::Float, true, Evaluated),
+    old("material.bump", Attr::Material(MaterialAttr::BumpValue), Type::Float, true),
     material("material.metallic", MaterialAttr::Metallic, Type::Float),
     material("material.roughness", MaterialAttr::Roughness, Type::Float),
     material("material.doubleSided", MaterialAttr::DoubleSided, Type::Bool),

@@ -1,12 +1,11 @@
 //! The tables of the language: every operation, function, attribute, keyword and deprecated name.
 //!
-//! In: a name as written. Out: its id, its overloads, and whether the interpreter evaluates it yet.
+//! In: a name as written. Out: its id, its overloads.
 //! Signatures are written as in the reference's appendix B: one string per overload, parameters separated by
 //! spaces. `F B S` float, bool, string; `F[] B[] S[]` arrays; `A` any array; `X` any value; `F'` takes `'`; `F~`
 //! takes `'` or `~`; `{a b}` one of the words; a trailing `?` marks an optional parameter.
 
 mod attribute;
-mod form;
 mod function;
 mod operation;
 mod signature;
@@ -14,16 +13,7 @@ pub mod usage;
 mod word;
 
 pub use attribute::{Attr, AttrInfo, MapLayer, MapPart, MaterialAttr};
-pub use form::Form;
 pub use function::Function;
 pub use operation::Operation;
 pub use signature::{ParameterKind, Signature};
 pub use word::Word;
-
-/// Whether the interpreter can run a built-in. Flip a row from `NotYet` to `Evaluated` in the same commit that
-/// implements it: the checker refuses what is `NotYet` with `cga::not-supported-yet`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Status {
-    Evaluated,
-    NotYet,
-}

@@ -1,13 +1,9 @@
-//! In: a name in operation position. Out: an [`Operation`] with its overloads and status.
+//! In: a name in operation position. Out: an [`Operation`] with its overloads.
 //!
 //! Operations that take a block (`split`, `comp`, `setback`, ...) are here with the arguments before the block.
-//! To support an operation in the interpreter, change its row's `NotYet` to `Evaluated`.
-
-use super::Status;
-use super::Status::Evaluated;
 
 macro_rules! operations {
-    ($($variant:ident $name:literal $status:ident [$($signature:literal),*])*) => {
+    ($($variant:ident $name:literal [$($signature:literal),*])*) => {
         /// A built-in operation.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
         pub enum Operation { $($variant),* }
@@ -27,111 +23,107 @@ macro_rules! operations {
             pub fn signatures(self) -> &'static [&'static str] {
                 match self { $(Operation::$variant => &[$($signature),*]),* }
             }
-
-            pub fn status(self) -> Status {
-                match self { $(Operation::$variant => $status),* }
-            }
         }
     };
 }
 
 operations! {
-    AlignScopeToAxes "alignScopeToAxes" Evaluated ["{x y z world.x world.y world.z world.xyz object.x object.y object.z object.xyz}?"]
-    AlignScopeToGeometry "alignScopeToGeometry" Evaluated [
+    AlignScopeToAxes "alignScopeToAxes" ["{x y z world.x world.y world.z world.xyz object.x object.y object.z object.xyz}?"]
+    AlignScopeToGeometry "alignScopeToGeometry" [
         "{yUp zUp} F{world.lowest largest any} F{world.lowest longest}", "{yUp zUp} F{auto}"
     ]
-    AlignScopeToGeometryBBox "alignScopeToGeometryBBox" Evaluated ["{xy yx xz zx yz zy}"]
-    Center "center" Evaluated ["{x y z xy xz yz xyz}"]
-    CleanupGeometry "cleanupGeometry" Evaluated ["{vertices edges faces all} F"]
-    Color "color" Evaluated ["S", "F F F F?"]
-    Comp "comp" Evaluated ["{f e fe v fv g m h} {zUp noAlign}?"]
-    Convexify "convexify" Evaluated ["F?"]
-    CopyUv "copyUV" Evaluated ["F F"]
-    DeleteHoles "deleteHoles" Evaluated [""]
-    DeleteTags "deleteTags" Evaluated ["S? {all faces edges vertices}?"]
-    DeleteUv "deleteUV" Evaluated ["F"]
-    Envelope "envelope" Evaluated [
+    AlignScopeToGeometryBBox "alignScopeToGeometryBBox" ["{xy yx xz zx yz zy}"]
+    Center "center" ["{x y z xy xz yz xyz}"]
+    CleanupGeometry "cleanupGeometry" ["{vertices edges faces all} F"]
+    Color "color" ["S", "F F F F?"]
+    Comp "comp" ["{f e fe v fv g m h} {zUp noAlign}?"]
+    Convexify "convexify" ["F?"]
+    CopyUv "copyUV" ["F F"]
+    DeleteHoles "deleteHoles" [""]
+    DeleteTags "deleteTags" ["S? {all faces edges vertices}?"]
+    DeleteUv "deleteUV" ["F"]
+    Envelope "envelope" [
         "{normal world.up} F F F", "{normal world.up} F F F F F", "{normal world.up} F F F F F F F",
         "{normal world.up} F F F F F F F F F", "{normal world.up} F F[] F[]",
         "F F F", "F F F F F", "F F F F F F F", "F F F F F F F F F"
     ]
-    Extrude "extrude" Evaluated [
+    Extrude "extrude" [
         "F", "{face.normal vertex.normal world.up world.up.flatTop x y z world.x world.y world.z} F"
     ]
-    Footprint "footprint" Evaluated [""]
-    Insert "i" Evaluated [
+    Footprint "footprint" [""]
+    Insert "i" [
         "S {yUp zUp}? {alignSizeAndPosition keepSizeAndPosition keepSizeAlignPosition}? {numericalCleanup noCleanup}?"
     ]
-    Inline "inline" Evaluated ["{append unify recompose}?"]
-    InnerRect "innerRect" Evaluated [""]
-    InnerRectangle "innerRectangle" Evaluated ["{scope edge}"]
-    InsertAlongUv "insertAlongUV" Evaluated ["F S F {scope.y vertex.normal}? {alignPosition keepPosition}?"]
-    Intersect "intersect" Evaluated [""]
-    Label "label" Evaluated ["S"]
-    Mirror "mirror" Evaluated ["B B B"]
-    MirrorScope "mirrorScope" Evaluated ["B B B"]
-    Modify "modify" Evaluated ["{f e fe v fv g m h} {zUp noAlign}?"]
-    NormalizeUv "normalizeUV" Evaluated ["F {uv uvUniform u v} {separatePerFace collectiveAllFaces}"]
-    Offset "offset" Evaluated ["F {all inside border}?"]
-    PrimitiveCone "primitiveCone" Evaluated ["F?", "F F F"]
-    PrimitiveCube "primitiveCube" Evaluated ["", "F F F"]
-    PrimitiveCylinder "primitiveCylinder" Evaluated ["F?", "F F F"]
-    PrimitiveDisk "primitiveDisk" Evaluated ["F? F?"]
-    PrimitiveQuad "primitiveQuad" Evaluated ["", "F F"]
-    PrimitiveSphere "primitiveSphere" Evaluated ["", "F F F?"]
-    Print "print" Evaluated ["X"]
-    ProjectUv "projectUV" Evaluated ["F"]
-    R "r" Evaluated ["{scopeOrigin scopeCenter} F F F", "F F F"]
-    Rectify "rectify" Evaluated ["F"]
-    ReduceGeometry "reduceGeometry" Evaluated ["F"]
-    Report "report" Evaluated ["S X"]
-    ResetGeometry "resetGeometry" Evaluated [""]
-    ResetMaterial "resetMaterial" Evaluated ["{shape geometry all}?"]
-    ReverseNormals "reverseNormals" Evaluated [""]
-    RoofGable "roofGable" Evaluated ["F F? F? B? F?", "{byAngle byHeight} F F? F? B? F?"]
-    RoofHip "roofHip" Evaluated ["F F? B?", "{byAngle byHeight} F F? B?"]
-    RoofPyramid "roofPyramid" Evaluated ["F", "{byAngle byHeight} F"]
-    RoofRidge "roofRidge" Evaluated ["{byAngle byHeight} F"]
-    RoofShed "roofShed" Evaluated ["F F?", "{byAngle byHeight} F F?"]
-    Rotate "rotate" Evaluated ["{abs rel} {scope pivot object world} F F F"]
-    RotateScope "rotateScope" Evaluated ["F F F"]
-    RotateUv "rotateUV" Evaluated ["F F"]
-    S "s" Evaluated ["F' F' F'"]
-    ScaleUv "scaleUV" Evaluated ["F F F"]
-    Scatter "scatter" Evaluated [
+    Inline "inline" ["{append unify recompose}?"]
+    InnerRect "innerRect" [""]
+    InnerRectangle "innerRectangle" ["{scope edge}"]
+    InsertAlongUv "insertAlongUV" ["F S F {scope.y vertex.normal}? {alignPosition keepPosition}?"]
+    Intersect "intersect" [""]
+    Label "label" ["S"]
+    Mirror "mirror" ["B B B"]
+    MirrorScope "mirrorScope" ["B B B"]
+    Modify "modify" ["{f e fe v fv g m h} {zUp noAlign}?"]
+    NormalizeUv "normalizeUV" ["F {uv uvUniform u v} {separatePerFace collectiveAllFaces}"]
+    Offset "offset" ["F {all inside border}?"]
+    PrimitiveCone "primitiveCone" ["F?", "F F F"]
+    PrimitiveCube "primitiveCube" ["", "F F F"]
+    PrimitiveCylinder "primitiveCylinder" ["F?", "F F F"]
+    PrimitiveDisk "primitiveDisk" ["F? F?"]
+    PrimitiveQuad "primitiveQuad" ["", "F F"]
+    PrimitiveSphere "primitiveSphere" ["", "F F F?"]
+    Print "print" ["X"]
+    ProjectUv "projectUV" ["F"]
+    R "r" ["{scopeOrigin scopeCenter} F F F", "F F F"]
+    Rectify "rectify" ["F"]
+    ReduceGeometry "reduceGeometry" ["F"]
+    Report "report" ["S X"]
+    ResetGeometry "resetGeometry" [""]
+    ResetMaterial "resetMaterial" ["{shape geometry all}?"]
+    ReverseNormals "reverseNormals" [""]
+    RoofGable "roofGable" ["F F? F? B? F?", "{byAngle byHeight} F F? F? B? F?"]
+    RoofHip "roofHip" ["F F? B?", "{byAngle byHeight} F F? B?"]
+    RoofPyramid "roofPyramid" ["F", "{byAngle byHeight} F"]
+    RoofRidge "roofRidge" ["{byAngle byHeight} F"]
+    RoofShed "roofShed" ["F F?", "{byAngle byHeight} F F?"]
+    Rotate "rotate" ["{abs rel} {scope pivot object world} F F F"]
+    RotateScope "rotateScope" ["F F F"]
+    RotateUv "rotateUV" ["F F"]
+    S "s" ["F' F' F'"]
+    ScaleUv "scaleUV" ["F F F"]
+    Scatter "scatter" [
         "{surface volume scope} F {uniform gaussian}",
         "{surface volume scope} F {gaussian} {center front back left right top bottom} F'"
     ]
-    Set "set" Evaluated ["X X"]
-    SetMaterial "setMaterial" Evaluated ["S[]"]
-    SetNormals "setNormals" Evaluated ["{hard soft auto conform}"]
-    SetPivot "setPivot" Evaluated ["{xyz yzx zxy yUp zUp} F"]
-    SetTagsFromEdgeAttrs "setTagsFromEdgeAttrs" Evaluated [""]
-    Setback "setback" Evaluated ["F F?", "F[] F?"]
-    SetbackPerEdge "setbackPerEdge" Evaluated ["F F?"]
-    SetbackToArea "setbackToArea" Evaluated ["F F?", "F F[] F?", "F F[] F[] F?"]
+    Set "set" ["X X"]
+    SetMaterial "setMaterial" ["S[]"]
+    SetNormals "setNormals" ["{hard soft auto conform}"]
+    SetPivot "setPivot" ["{xyz yzx zxy yUp zUp} F"]
+    SetTagsFromEdgeAttrs "setTagsFromEdgeAttrs" [""]
+    Setback "setback" ["F F?", "F[] F?"]
+    SetbackPerEdge "setbackPerEdge" ["F F?"]
+    SetbackToArea "setbackToArea" ["F F?", "F F[] F?", "F F[] F[] F?"]
     // With five arguments the last one is the uw factor (an old overload).
-    SetupProjection "setupProjection" Evaluated [
+    SetupProjection "setupProjection" [
         "F {scope.xy scope.xz scope.yx scope.yz scope.zx scope.zy world.xy world.xz world.yx world.yz world.zx world.zy} F~ F~ F?",
         "F {scope.xy scope.xz scope.yx scope.yz scope.zx scope.zy world.xy world.xz world.yx world.yz world.zx world.zy} F~ F~ F' F' F?"
     ]
-    ShapeL "shapeL" Evaluated ["F F"]
-    ShapeO "shapeO" Evaluated ["F F F F"]
-    ShapeU "shapeU" Evaluated ["F F F"]
-    SoftenNormals "softenNormals" Evaluated ["F"]
-    Split "split" Evaluated ["{x y z} {adjust noAdjust}?", "{u v} {uvSpace unitSpace} F"]
-    SplitAndSetbackPerimeter "splitAndSetbackPerimeter" Evaluated ["F'", "F' F B[]"]
-    SplitArea "splitArea" Evaluated ["{x y z} {adjust noAdjust}?"]
-    Subtract "subtract" Evaluated [""]
-    T "t" Evaluated ["F' F' F'"]
-    Tag "tag" Evaluated ["S {auto faces edges vertices}?"]
-    Taper "taper" Evaluated ["F"]
-    Texture "texture" Evaluated ["S"]
-    TileUv "tileUV" Evaluated ["F F~ F~"]
-    Translate "translate" Evaluated ["{abs rel} {scope pivot object world} F F F"]
-    TranslateUv "translateUV" Evaluated ["F F F"]
-    Trim "trim" Evaluated [""]
-    Union "union" Evaluated [""]
+    ShapeL "shapeL" ["F F"]
+    ShapeO "shapeO" ["F F F F"]
+    ShapeU "shapeU" ["F F F"]
+    SoftenNormals "softenNormals" ["F"]
+    Split "split" ["{x y z} {adjust noAdjust}?", "{u v} {uvSpace unitSpace} F"]
+    SplitAndSetbackPerimeter "splitAndSetbackPerimeter" ["F'", "F' F B[]"]
+    SplitArea "splitArea" ["{x y z} {adjust noAdjust}?"]
+    Subtract "subtract" [""]
+    T "t" ["F' F' F'"]
+    Tag "tag" ["S {auto faces edges vertices}?"]
+    Taper "taper" ["F"]
+    Texture "texture" ["S"]
+    TileUv "tileUV" ["F F~ F~"]
+    Translate "translate" ["{abs rel} {scope pivot object world} F F F"]
+    TranslateUv "translateUV" ["F F F"]
+    Trim "trim" [""]
+    Union "union" [""]
 }
 
 impl Operation {

@@ -63,7 +63,6 @@ impl Builtin {
 
 impl Body<'_, '_> {
     pub fn builtin_function(&mut self, function: Function, args: &[Argument], span: Span) -> Expr {
-        self.status(function.status(), &format!("`{}`", function.name()), span);
         if function.observes_tags() {
             self.tables.observes_tags.set(true);
         }

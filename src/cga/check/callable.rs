@@ -5,7 +5,7 @@ use super::instance::Value;
 use super::lower::Body;
 use super::types::type_name;
 use crate::cga::ast::{self, Argument, Text};
-use crate::cga::builtins::{Attr, Form, Function, Status, Word};
+use crate::cga::builtins::{Attr, Function, Word};
 use crate::cga::codes;
 use crate::cga::program::{AttributeId, Expr, ExprKind, FunctionId, Prefix, Type};
 use crate::diagnostics::{Diagnostic, suggest};
@@ -26,7 +26,6 @@ impl Body<'_, '_> {
         if args.is_none_or(<[Argument]>::is_empty)
             && let Some(row) = Attr::from_name(&name.text)
         {
-            self.status(row.status, &format!("`{}`", row.name), span);
             if row.deprecated {
                 self.deprecated(name, row.attr.info().name);
             }
@@ -152,17 +151,6 @@ impl Body<'_, '_> {
         self.diagnostics.push(error.help(forms()));
     }
 
-    /// Reports a built-in that the interpreter cannot run yet.
-    pub fn status(&mut self, status: Status, what: &str, span: Span) {
-        if status == Status::NotYet {
-            self.error(codes::NOT_SUPPORTED_YET, span, format!("known CGA operation, not supported yet: {what}"));
-        }
-    }
-
-    pub fn form(&mut self, form: Form, span: Span) {
-        self.status(form.status(), form.text(), span);
-    }
-
     pub fn deprecated(&mut self, name: &Text, new: &str) {
         let message = format!("`{}` is an old name", name.text);
         self.diagnostics
@@ -200,20 +188,6 @@ impl Body<'_, '_> {
     fn selector_word(&mut self, word: Word, span: Span) -> Expr {
         use Word as W;
         self.tables.needs.set(self.tables.needs.get().with_word(word));
-        let form = match word {
-            W::StreetFront | W::StreetBack | W::StreetLeft | W::StreetRight | W::StreetSide => {
-                Some(Form::StreetSelector)
-            }
-            W::LegacyStreetSide | W::LegacyNoStreetSide => Some(Form::StreetSelector),
-            W::UvLeft | W::UvRight | W::UvBottom | W::UvTop | W::UvUMin | W::UvUMax | W::UvVMin | W::UvVMax => {
-                Some(Form::UvSelector)
-            }
-            W::Eave | W::Hip | W::Valley | W::Ridge => Some(Form::RoofEdgeSelector),
-            _ => None,
-        };
-        if let Some(form) = form {
-            self.form(form, span);
-        }
         match word {
             W::LegacyStreetSide => self.old_form(span, "`streetSide` is an old name", "street.front"),
             W::LegacyNoStreetSide => self.old_form(span, "`noStreetSide` is an old name", "!street.front"),

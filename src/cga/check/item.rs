@@ -8,7 +8,7 @@ use super::deprecated::REMOVED;
 use super::instance::Value;
 use super::lower::Body;
 use crate::cga::ast::{self, Argument, Block, ItemKind, Part, SectionBlock, SectionPart, Text};
-use crate::cga::builtins::{Attr, Form, Operation, Word};
+use crate::cga::builtins::{Attr, Operation, Word};
 use crate::cga::codes;
 use crate::cga::program::{
     Arg, Axis, BooleanOperator, Expr, ExprKind, InlineMode, Item, PerimeterItem, Prefix, RuleId, SectionPattern,
@@ -133,16 +133,12 @@ impl Body<'_, '_> {
             return Item::Discard;
         }
         let args = self.block_arguments(operation, given, span);
-        if operation == Operation::Extrude && matches!(args.first(), Some(Arg::Word(Word::VertexNormal, _))) {
-            self.form(Form::VertexNormalExtrusion, span);
-        }
         self.deprecated_form(operation, &args, span);
         Item::Operation { operation, args, span }
     }
 
-    /// The arguments of an operation, its status checked.
+    /// The arguments of an operation.
     fn block_arguments(&mut self, operation: Operation, given: &[Argument], span: Span) -> Vec<Arg> {
-        self.status(operation.status(), &format!("`{}`", operation.name()), span);
         if operation.observes_tags() {
             self.tables.observes_tags.set(true);
         }
@@ -160,7 +156,6 @@ impl Body<'_, '_> {
         let value = self.plain_argument(value);
         let unused = SetTarget::Builtin(Attr::Seedian);
         let target = if let Some(text) = computed_word(&target.value) {
-            self.form(Form::ComputedSet, span);
             let text = self.expression(text);
             self.require(&text, Type::String);
             SetTarget::Computed(text)
@@ -204,7 +199,6 @@ impl Body<'_, '_> {
             self.diagnostics.push(Diagnostic { help, ..diagnostic });
             return None;
         };
-        self.status(row.status, &format!("`{}`", row.name), name.span);
         if row.deprecated {
             self.deprecated(name, row.attr.info().name);
         }
@@ -220,7 +214,6 @@ impl Body<'_, '_> {
         let operation = Operation::from_name(&name.text).expect("the grammar names known operations");
         let span = name.span;
         if operation == Operation::Comp || operation == Operation::Modify {
-            self.status(operation.status(), &format!("`{}`", operation.name()), span);
             let (component, keep_axes) = self.component(operation, args, span);
             let selectors = self.selectors(selectors);
             return match operation {
@@ -258,7 +251,6 @@ impl Body<'_, '_> {
         };
         let kind = match (word(0), args.get(2)) {
             (Some(Word::U | Word::V), Some(Arg::Value(_, set))) => {
-                self.form(Form::SplitUv, name.span);
                 let (v, metres) = (word(0) == Some(Word::V), word(1) == Some(Word::UnitSpace));
                 SplitKind::Uv { v, metres, set: set.clone() }
             }
@@ -298,7 +290,6 @@ impl Body<'_, '_> {
     }
 
     fn inline(&mut self, name: &Text, mode: Option<&Text>, body: &ast::Successor) -> Item {
-        self.status(Operation::Inline.status(), "`inline`", name.span);
         let mode = match mode.map(|m| (&*m.text, m.span)) {
             None | Some(("append", _)) => InlineMode::Append,
             Some(("unify", _)) => InlineMode::Unify,
@@ -322,7 +313,6 @@ impl Body<'_, '_> {
         left: &ast::Successor,
         right: Option<&ast::Successor>,
     ) -> Item {
-        self.status(Operation::Union.status(), &format!("`{}`", name.text), name.span);
         let left = Box::new(self.successor(left, true));
         let Some(right) = right else {
             let modern = format!("{0} {{ … | … }}", name.text);

@@ -307,7 +307,6 @@ impl<'c, 'a> Body<'c, 'a> {
         let span = definition.name.span;
         match (&*definition.name.text, parameters.len()) {
             ("streetWidth", 1) => {
-                self.form(crate::cga::builtins::Form::StreetWidth, span);
                 self.tables.needs.set(program::Needs { edges: true, ..self.tables.needs.get() });
             }
             (_, 0) => {}

@@ -4,9 +4,9 @@ use super::builtin_call::Builtin;
 use super::lower::Body;
 use super::types::{array_of, type_name};
 use crate::cga::ast::{self, Argument};
-use crate::cga::builtins::{Form, Operation, Word};
+use crate::cga::builtins::{Operation, Word};
 use crate::cga::codes;
-use crate::cga::program::{Arg, Component, Expr, ExprKind, ExprSelector, Selector, SelectorOperator, Type};
+use crate::cga::program::{Arg, Component, Expr, ExprKind, ExprSelector, Selector, Type};
 use crate::source::Span;
 
 impl Body<'_, '_> {
@@ -23,9 +23,6 @@ impl Body<'_, '_> {
     }
 
     fn selector_test<T>(&mut self, selector: &ast::Selector<T>) -> Expr {
-        if selector.operator == SelectorOperator::Connected {
-            self.form(Form::CompConnected, selector.test.span);
-        }
         let before = std::mem::replace(&mut self.in_selector, true);
         let test = self.expression(&selector.test);
         self.in_selector = before;
@@ -38,7 +35,6 @@ impl Body<'_, '_> {
 
     /// `comp(f) { top : 1 | all : 2 }` as a value.
     pub fn comp_function(&mut self, args: &[Argument], selectors: &[ast::Selector<ast::Expr>], span: Span) -> Expr {
-        self.form(Form::CompFunction, span);
         let (component, keep_axes) = self.component(Operation::Comp, args, span);
         let mut out = Vec::new();
         for selector in selectors {
@@ -58,22 +54,18 @@ impl Body<'_, '_> {
             Some(Arg::Word(word, _)) => Some(*word),
             _ => None,
         };
-        let (component, form) = match word(0) {
-            Some(Word::E) => (Component::Edges, Form::CompEdges),
-            Some(Word::Fe) => (Component::FaceEdges, Form::CompFaceEdges),
-            Some(Word::V) => (Component::Vertices, Form::CompVertices),
-            Some(Word::Fv) => (Component::FaceVertices, Form::CompFaceVertices),
-            Some(Word::G) => (Component::Groups, Form::CompGroups),
-            Some(Word::M) => (Component::Materials, Form::CompMaterials),
-            Some(Word::H) => (Component::Holes, Form::CompHoles),
-            _ => (Component::Faces, Form::CompFaces),
+        let component = match word(0) {
+            Some(Word::E) => Component::Edges,
+            Some(Word::Fe) => Component::FaceEdges,
+            Some(Word::V) => Component::Vertices,
+            Some(Word::Fv) => Component::FaceVertices,
+            Some(Word::G) => Component::Groups,
+            Some(Word::M) => Component::Materials,
+            Some(Word::H) => Component::Holes,
+            _ => Component::Faces,
         };
-        self.form(form, span);
         self.no_computed_words(&args);
         let keep_axes = word(1) == Some(Word::NoAlign);
-        if keep_axes {
-            self.form(Form::CompKeepAxes, span);
-        }
         (component, keep_axes)
     }
 

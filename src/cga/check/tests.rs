@@ -137,7 +137,6 @@ fn arguments_are_checked() {
     error("A --> comp(f)", c::MISSING_BLOCK, "comp(f)");
     warning("A --> split(x) { B. | 1 : C. }", c::MISSING_SIZE, "B.");
     error("A --> 70% : B. 40% : C. else : D.", c::WEIGHTS_OVER_100, "70% : B. 40");
-    error("attr a = readTextFile(\"x\")", c::NOT_SUPPORTED_YET, "readTextFile(\"x\")");
 }
 
 #[test]

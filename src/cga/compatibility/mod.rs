@@ -218,7 +218,7 @@ fn diagnostic(diagnostic: &Diagnostic, sources: &SourceMap, out: &mut Vec<Findin
     let verdict = match (diagnostic.code, diagnostic.severity) {
         (codes::DEPRECATED | codes::MISSING_SIZE, _) => Verdict::Deprecated,
         (codes::CHANGED_MEANING, _) => Verdict::Changed,
-        (codes::NOT_SUPPORTED_YET | codes::REMOVED, _) => Verdict::Missing,
+        (codes::REMOVED, _) => Verdict::Missing,
         (_, Severity::Error) => Verdict::Wrong,
         (_, Severity::Warning) => return,
     };

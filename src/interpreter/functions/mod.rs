@@ -113,14 +113,7 @@ pub fn call(
                 .or_else(|| array::call(other, &input))
                 .or_else(|| text::call(other, &input))
                 .or_else(|| list::call(other, &input));
-            value.unwrap_or_else(|| {
-                run.error(
-                    "cga::not-supported-yet",
-                    span,
-                    format!("`{}` is a known CGA function, not supported yet", other.name()),
-                );
-                Value::Float(0.0)
-            })
+            value.expect("every function belongs to one of these families")
         }
     })
 }

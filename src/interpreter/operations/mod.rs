@@ -153,7 +153,7 @@ pub fn apply(
         O::Label => label::apply(run, &args, shape),
         O::Report => report::report(run, &args),
         O::Print => report::print(run, &args)?,
-        other => not_evaluated(run, other.name(), span),
+        other => unreachable!("`{}` is an item of its own", other.name()),
     }
     if operation.inserts() {
         trim::inserted(run, shape, span);
@@ -198,9 +198,4 @@ pub fn pieces<'p>(run: &mut Derivation<'p>, item: &'p Item, env: &Env) -> Outcom
         | Item::Modify { .. }
         | Item::Group(_) => Ok(Vec::new()),
     }
-}
-
-/// The checker refuses these before a run; reached only with a program that was run in spite of its errors.
-fn not_evaluated(run: &mut Derivation, name: &str, span: Span) {
-    run.error("cga::not-supported-yet", span, format!("`{name}` is a known CGA operation, not supported yet"));
 }
