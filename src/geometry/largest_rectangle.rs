@@ -39,8 +39,8 @@ const GOLDEN: f64 = 0.618_033_988_749_894_9;
 pub fn largest_upright(polygon: &Polygon, middle: DVec2) -> Option<Rectangle> {
     let slabs = slabs(polygon);
     let mut search = Search { slabs: &slabs, middle, best: None };
-    for i in 0..slabs.len() {
-        for trapezoid in &slabs[i].trapezoids {
+    for (i, slab) in slabs.iter().enumerate() {
+        for trapezoid in &slab.trapezoids {
             search.extend(i, trapezoid, i, trapezoid, f64::NEG_INFINITY, f64::INFINITY);
         }
     }

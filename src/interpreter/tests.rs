@@ -33,6 +33,7 @@ mod solids;
 mod split_sizes;
 mod split_uv;
 mod splits;
+mod strange_shapes;
 mod surfaces;
 mod tags;
 mod transforms;

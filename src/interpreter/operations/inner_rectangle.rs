@@ -19,7 +19,10 @@ pub fn regions(run: &mut Derivation, args: &Args, parent: &Shape, selectors: &[S
     let mut out = Regions { by_selector: vec![Vec::new(); selectors.len()], distances: None };
     let mesh = &parent.form.mesh;
     for (number, face) in mesh.faces.iter().enumerate() {
-        let Some(frame) = PlaneFrame::of_face(mesh, face) else { continue };
+        let Some(frame) = PlaneFrame::of_face(mesh, face) else {
+            run.warn("cga::no-face", args.span, || "a face without area has no pieces".into());
+            continue;
+        };
         let polygon = frame.face_to_plan(mesh, face);
         let directions = match args.word(0) {
             Some(Word::Edge) => edge_directions(&polygon),

@@ -18,8 +18,8 @@ pub fn apply(run: &mut Derivation, args: &Args, shape: &mut Shape) {
     }
     shape.bake();
     let source = shape.form.clone();
-    if source.mesh.faces.is_empty() {
-        run.warn("cga::no-face", args.span, || "there is no face to offset".into());
+    if source.mesh.faces.iter().all(|face| PlaneFrame::of_face(&source.mesh, face).is_none()) {
+        run.warn("cga::no-face", args.span, || "there is no face with an area to offset".into());
         return;
     }
     let mut out = PlanFaces::new(&source);

@@ -7,7 +7,8 @@ use super::super::limits::Outcome;
 use super::super::shape::{CompSplit, Shape};
 use super::args::Args;
 use super::plan_faces::PlanFaces;
-use super::{Pieces, inner_rectangle, setback, setback_tags, setback_to_area, shape_wings};
+use super::setback_tags::{self, Cuts};
+use super::{Pieces, inner_rectangle, setback, setback_to_area, shape_wings};
 use crate::cga::builtins::{Operation, Word};
 use crate::cga::program::{Arg, ExprKind, Selector, SelectorOperator};
 use crate::geometry::{PlaneFrame, Polygon};
@@ -75,7 +76,7 @@ fn shapes<'p>(run: &Derivation, parent: &Shape, selectors: &'p [Selector], regio
         };
         let split = CompSplit::shared(&selector.text, groups.len());
         for (index, group) in groups.into_iter().enumerate() {
-            let mut shape = region(parent, &group, distances.as_deref(), rest == Some(number));
+            let mut shape = region(parent, &group, distances.as_deref().map(Cuts::Edges), rest == Some(number));
             (shape.comp, shape.comp_index) = (split.clone(), index as i32);
             out.push((shape, &selector.body));
         }
@@ -83,8 +84,8 @@ fn shapes<'p>(run: &Derivation, parent: &Shape, selectors: &'p [Selector], regio
     out
 }
 
-/// The shape of some polygons; with distances its edges are tagged as those of a setback.
-pub fn region(parent: &Shape, group: &[InFace], distances: Option<&[f64]>, is_remainder: bool) -> Shape {
+/// The shape of some polygons; its edges are tagged as those of a setback if told what was cut.
+pub fn region(parent: &Shape, group: &[InFace], cuts: Option<Cuts>, is_remainder: bool) -> Shape {
     let mut faces = PlanFaces::new(&parent.form);
     let mesh = &parent.form.mesh;
     for (number, polygon) in group {
@@ -94,9 +95,9 @@ pub fn region(parent: &Shape, group: &[InFace], distances: Option<&[f64]>, is_re
         }
     }
     let mut form = faces.into_form();
-    if let Some(distances) = distances {
+    if let Some(cuts) = cuts {
         let sources: Vec<usize> = group.iter().map(|(number, _)| *number).collect();
-        setback_tags::mark(&parent.form, &mut form, &sources, distances, is_remainder);
+        setback_tags::mark(&parent.form, &mut form, &sources, cuts, is_remainder);
     }
     let mut shape = parent.clone();
     shape.replace(form);

@@ -27,12 +27,28 @@ impl Line {
     }
 }
 
-/// Tags the edges of a piece. `sources` is the outline's face of every face of the piece, `distances` how far each
-/// face edge of the outline was set back (0: not), `is_remainder` whether the piece is what was left.
-pub fn mark(outline: &Form, piece: &mut Form, sources: &[usize], distances: &[f64], is_remainder: bool) {
+/// What was cut from the outline.
+#[derive(Clone, Copy)]
+pub enum Cuts<'a> {
+    /// How far each face edge was set back, 0 where it stayed.
+    Edges(&'a [f64]),
+    /// Stretches of edges.
+    Stretches(&'a [Stretch]),
+}
+
+/// Part of an edge of a face that was set back.
+pub struct Stretch {
+    pub face: usize,
+    pub ends: [DVec3; 2],
+    pub distance: f64,
+}
+
+/// Tags the edges of a piece. `sources` is the outline's face of every face of the piece, `is_remainder` whether the
+/// piece is what was left.
+pub fn mark(outline: &Form, piece: &mut Form, sources: &[usize], cuts: Cuts, is_remainder: bool) {
     let mut names = Vec::new();
     for (face, &source) in piece.mesh.faces.iter().zip(sources) {
-        let (lines, near) = lines(&outline.mesh, source, distances);
+        let (lines, near) = lines(&outline.mesh, source, cuts);
         for (a, b) in face.edges() {
             let ends = [a, b].map(|v| piece.mesh.positions[v as usize]);
             names.push(([a, b], name(&lines, ends, near, is_remainder)));
@@ -41,17 +57,27 @@ pub fn mark(outline: &Form, piece: &mut Form, sources: &[usize], distances: &[f6
     piece.auto_tag_edges("setback", names);
 }
 
-fn lines(mesh: &Mesh, number: usize, distances: &[f64]) -> (Vec<Line>, f64) {
+fn lines(mesh: &Mesh, number: usize, cuts: Cuts) -> (Vec<Line>, f64) {
     let face: &Face = &mesh.faces[number];
     let before: usize = mesh.faces[..number].iter().map(|f| f.edges().count()).sum();
     let normal = mesh.normal(face);
     let at = |v: u32| mesh.positions[v as usize];
-    let line = |(i, (a, b)): (usize, (u32, u32))| {
-        let inwards = normal.cross(at(b) - at(a)).normalize_or_zero();
-        let distance = distances.get(before + i).copied().unwrap_or(0.0);
-        Line { from: at(a), to: at(b), inwards, distance }
+    let line = |from: DVec3, to: DVec3, distance: f64| {
+        let inwards = normal.cross(to - from).normalize_or_zero();
+        Line { from, to, inwards, distance }
     };
-    let lines: Vec<Line> = face.edges().enumerate().map(line).collect();
+    let mut lines: Vec<Line> = Vec::new();
+    if let Cuts::Stretches(list) = cuts {
+        let own = list.iter().filter(|stretch| stretch.face == number);
+        lines.extend(own.map(|stretch| line(stretch.ends[0], stretch.ends[1], stretch.distance)));
+    }
+    for (i, (a, b)) in face.edges().enumerate() {
+        let distance = match cuts {
+            Cuts::Edges(distances) => distances.get(before + i).copied().unwrap_or(0.0),
+            Cuts::Stretches(_) => 0.0,
+        };
+        lines.push(line(at(a), at(b), distance));
+    }
     let extent =
         lines.first().map_or(0.0, |first| lines.iter().map(|l| l.from.distance(first.from)).fold(0.0, f64::max));
     (lines, NEAR * extent)

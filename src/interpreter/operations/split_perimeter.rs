@@ -14,8 +14,9 @@ use super::super::shape::Shape;
 use super::super::value::Value;
 use super::Pieces;
 use super::args::Args;
-use super::perimeter::{Perimeter, Section};
+use super::perimeter::{Part, Perimeter, Section};
 use super::regions::{InFace, region};
+use super::setback_tags::{Cuts, Stretch};
 use super::split_pattern::{self, size};
 use super::split_sizes::Block;
 use super::strips::{starting_near, starting_on};
@@ -48,22 +49,19 @@ pub fn pieces<'p>(
     let blocks = [Block::Group { blocks, repeat: pattern.repeat }];
     let mut faces = faces(run, &args, &parent, &blocks)?;
     let depths = depths(run, &parent, &faces, &contents, env)?;
+    faces.iter_mut().flat_map(FacePlan::sections).zip(&depths).for_each(|(section, depth)| section.depth = *depth);
+    let stretches: Vec<Stretch> = faces.iter().flat_map(FacePlan::stretches).collect();
+    let cuts = run.program.observes_tags().then_some(Cuts::Stretches(&stretches));
     let mut out: Pieces<'p> = Vec::new();
     let total = depths.len() as u32;
-    let mut depths = depths.into_iter();
     let mut rests: Vec<InFace> = Vec::new();
     let mut index = 0;
-    for face in &mut faces {
-        face.sections().zip(&mut depths).for_each(|(section, depth)| section.depth = depth);
+    for face in &faces {
         let cut = face.cut(run, span);
-        let edges = face.polygon.rings().map(Vec::len).sum::<usize>();
         for (section, polygons) in face.perimeters.iter().flat_map(|p| &p.sections).zip(cut.sections) {
             if !polygons.is_empty() {
-                let mut distances = vec![0.0; face.first_edge + edges];
-                section.parts.iter().for_each(|part| distances[face.first_edge + part.edge] = section.depth);
                 let group: Vec<InFace> = polygons.into_iter().map(|p| (face.number, p)).collect();
-                let observed = run.program.observes_tags().then_some(&distances[..]);
-                let mut shape = region(&parent, &group, observed, false);
+                let mut shape = region(&parent, &group, cuts, false);
                 shape.split_index = index;
                 shape.split_total = total;
                 out.push((shape, contents[section.content].1));
@@ -73,8 +71,7 @@ pub fn pieces<'p>(
         rests.extend(cut.rest.into_iter().map(|p| (face.number, p)));
     }
     if let Some(body) = remainder {
-        let observed = run.program.observes_tags().then_some(&[][..]);
-        out.extend(rests.into_iter().map(|rest| (region(&parent, &[rest], observed, true), body)));
+        out.extend(rests.into_iter().map(|rest| (region(&parent, &[rest], cuts, true), body)));
     }
     run.count_shapes(out.len(), span)?;
     Ok(out)
@@ -106,8 +103,7 @@ fn evaluate<'p>(
 /// A face in plan, with its perimeters and their sections.
 struct FacePlan {
     number: usize,
-    /// Number of its first edge among the face edges of the shape.
-    first_edge: usize,
+    frame: PlaneFrame,
     polygon: Polygon,
     perimeters: Vec<Perimeter>,
 }
@@ -147,9 +143,12 @@ fn faces(run: &mut Derivation, args: &Args, parent: &Shape, blocks: &[Block]) ->
                 perimeters.push(perimeter);
                 before += ring.len();
             }
-            out.push(FacePlan { number, first_edge, polygon, perimeters });
+            out.push(FacePlan { number, frame, polygon, perimeters });
         }
         first_edge += edges;
+    }
+    if out.len() < mesh.faces.len() {
+        run.warn("cga::no-face", args.span, || "a face without area has no pieces".into());
     }
     Ok(out)
 }
@@ -177,6 +176,16 @@ fn depths<'p>(
 impl FacePlan {
     fn sections(&mut self) -> impl Iterator<Item = &mut Section> {
         self.perimeters.iter_mut().flat_map(|p| &mut p.sections)
+    }
+
+    /// What is set back of its edges.
+    fn stretches(&self) -> impl Iterator<Item = Stretch> + '_ {
+        let stretch = |depth: f64, part: &Part| {
+            let ends = [part.from, part.to].map(|p| self.frame.to_space(p, 0.0));
+            Stretch { face: self.number, ends, distance: depth }
+        };
+        let sections = self.perimeters.iter().flat_map(|p| &p.sections).filter(|s| s.depth > 0.0);
+        sections.flat_map(move |s| s.parts.iter().map(move |part| stretch(s.depth, part)))
     }
 
     /// Deeper sections first, each takes what is left of the face.

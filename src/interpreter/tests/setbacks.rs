@@ -141,6 +141,19 @@ P --> print(split.index + " " + split.total + " " + scope.sy) NIL"#;
 }
 
 #[test]
+fn edges_of_sections_are_named() {
+    let edges = "comp(e) { isTagged(\"setback.front\") : F. | isTagged(\"setback.back\") : B. | \
+        isTagged(\"setback.side\") : S. | isTagged(\"setback.remainder\") : R. }";
+    let counts = |rules: &str| {
+        let tree = run(&format!("Lot --> splitAndSetbackPerimeter(12) {{ {rules}"), SMALL);
+        ["F", "B", "S", "R"].map(|rule| count(&tree, rule))
+    };
+    assert_eq!(counts(&format!("2 : 1 : {edges} | ~1 : 0 : NIL }} {{ remainder : NIL }}")), [1, 1, 2, 0]);
+    // Two short pieces of the right side are left beside the section.
+    assert_eq!(counts(&format!("2 : 1 : NIL | ~1 : 0 : NIL }} {{ remainder : {edges} }}")), [0, 1, 2, 5]);
+}
+
+#[test]
 fn rectangles_inside() {
     let tree =
         run("Lot --> innerRectangle(scope) { shape : A. | remainder : B. }", &[(0.0, 0.0), (8.0, 0.0), (0.0, -6.0)]);
