@@ -147,6 +147,7 @@ const RAISED_BY_RUNS: &[&str] = &[
     "cga::rectify",
     "cga::reduce",
     "cga::setback-area",
+    "cga::regular-expression",
 ];
 
 /// All codes, those of the checker first.
