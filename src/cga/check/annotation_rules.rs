@@ -175,10 +175,10 @@ pub fn check_types(tables: &Tables<'_>, types: &Types, diagnostics: &mut Diagnos
             }
             for arg in &annotation.args {
                 match (&arg.value, arg.key.as_ref().map(|k| &*k.text)) {
-                    (AnnotationValue::Constant(value), None | Some("min" | "max" | "stepsize")) => {
-                        if !is_element_of(value, kind) {
-                            warn(arg.span, format!("this is no value for an attribute that is {}", type_name(kind)));
-                        }
+                    (AnnotationValue::Constant(value), None | Some("min" | "max" | "stepsize"))
+                        if !is_element_of(value, kind) =>
+                    {
+                        warn(arg.span, format!("this is no value for an attribute that is {}", type_name(kind)));
                     }
                     (AnnotationValue::Name(from), Some("valuesAttr")) => {
                         let values = tables.attribute_named(entry.scope, from);

@@ -8,7 +8,7 @@ use crate::cga::ast::{self, Argument, Text};
 use crate::cga::builtins::{Attr, Function, Word};
 use crate::cga::codes;
 use crate::cga::program::{AttributeId, Expr, ExprKind, FunctionId, Prefix, Type};
-use crate::diagnostics::{Diagnostic, suggest};
+use crate::diagnostics::Diagnostic;
 use crate::source::Span;
 
 impl Body<'_, '_> {
@@ -166,7 +166,7 @@ impl Body<'_, '_> {
         let own = self.tables.instances[self.scope].values.keys().map(|k| &**k);
         let builtin = Function::ALL.iter().map(|f| f.name()).chain(Attr::table().map(|row| row.name));
         let words = SELECTORS.iter().map(|w| w.text()).filter(|_| self.in_selector);
-        let near = suggest(&name.text, slots.chain(own).chain(builtin).chain(words));
+        let near = self.tables.meant(&name.text, slots.chain(own).chain(builtin).chain(words));
         let (code, message) = if self.in_selector && args.is_empty() {
             (codes::UNKNOWN_SELECTOR, format!("`{}` is neither a selector nor a value", name.text))
         } else {

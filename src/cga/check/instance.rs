@@ -11,11 +11,14 @@ use super::style::InForce;
 use crate::cga::ast::{self, AnnotationValue, DeclarationKind, Definition, DefinitionKind, Import, Modifier, Text};
 use crate::cga::codes;
 use crate::cga::program::{Annotations, AttributeId, FunctionId, Needs, RuleId};
-use crate::diagnostics::{Diagnostic, Diagnostics};
+use crate::diagnostics::{Diagnostic, Diagnostics, suggest};
 use crate::source::Span;
 
 /// Most imports in the whole tree; a ladder of files that each import the next one twice doubles per step.
 pub const MAX_INSTANCES: usize = 1000;
+
+/// Searches among all names of a file for one that was meant.
+const MOST_SEARCHES: usize = 200;
 
 /// What a name in an expression leads to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -95,6 +98,8 @@ pub struct Tables<'a> {
     /// Instances whose rules are called so.
     pub called_dynamically: BTreeSet<usize>,
     pub diagnostics: Diagnostics,
+    /// Searches for meant names that are left: see [`Tables::meant`].
+    searches: Cell<usize>,
     /// See [`crate::cga::program::Program::observes_tags`]; set while bodies are resolved.
     pub observes_tags: Cell<bool>,
     /// See [`crate::cga::program::Program::needs`]; added to while bodies are resolved.
@@ -113,6 +118,7 @@ impl<'a> Tables<'a> {
             dynamic: BTreeMap::new(),
             called_dynamically: BTreeSet::new(),
             diagnostics: Diagnostics::default(),
+            searches: Cell::new(MOST_SEARCHES),
             observes_tags: Cell::new(false),
             needs: Cell::default(),
         }
@@ -327,6 +333,12 @@ impl<'a> Tables<'a> {
             Value::Attribute(id) => Some(*id),
             Value::Function(_) => None,
         })
+    }
+
+    /// The name that was probably meant. A text with very many unknown names is answered in time rather than in full.
+    pub fn meant<'n>(&self, name: &str, candidates: impl IntoIterator<Item = &'n str>) -> Option<&'n str> {
+        self.searches.set(self.searches.get().checked_sub(1)?);
+        suggest(name, candidates)
     }
 
     /// The imported instance and the name in it that a dotted name means, if its first part is an import.

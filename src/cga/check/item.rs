@@ -106,7 +106,7 @@ impl Body<'_, '_> {
                 .diagnostics
                 .push(Diagnostic::error(codes::REMOVED, name.span, message).help(format!("use {now}")));
         }
-        let operation = suggest(&name.text, Operation::ALL.iter().map(|o| o.name()));
+        let operation = self.tables.meant(&name.text, Operation::ALL.iter().map(|o| o.name()));
         if let Some(near) = operation.filter(|_| !args.is_empty()) {
             let message = format!("there is no operation or rule `{}`", name.text);
             let error = Diagnostic::error(codes::UNKNOWN_OPERATION, name.span, message);
@@ -114,7 +114,7 @@ impl Body<'_, '_> {
             return;
         }
         let own = self.tables.instances[self.scope].rules.keys().map(|k| &**k);
-        let near = suggest(&name.text, own).or(operation);
+        let near = self.tables.meant(&name.text, own).or(operation);
         let message = format!("no rule `{}`; it becomes a leaf", name.text);
         let warning = Diagnostic::warning(codes::UNDEFINED_RULE, name.span, message);
         self.diagnostics.push(warning.help(match near {

@@ -127,11 +127,14 @@ pub fn expressions_of(item: &Item) -> Vec<&Expr> {
 }
 
 fn sizes(block: &SplitBlock) -> Vec<&Expr> {
-    let size = |item| match item {
-        &SplitItem::Piece { ref size, .. } => vec![size],
-        SplitItem::Group(block) => sizes(block),
-    };
-    block.items.iter().flat_map(size).collect()
+    let mut out = Vec::new();
+    for item in &block.items {
+        match item {
+            SplitItem::Piece { size, .. } => out.push(size),
+            SplitItem::Group(block) => out.extend(sizes(block)),
+        }
+    }
+    out
 }
 
 fn lengths<'p>(pattern: &'p SectionPattern, out: &mut Vec<&'p Expr>) {
