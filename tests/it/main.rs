@@ -4,6 +4,7 @@ mod bad_input;
 mod compatibility;
 mod diagnostics;
 mod golden;
+mod manual;
 mod pipeline;
 mod projects;
 mod syncw;
