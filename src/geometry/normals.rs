@@ -141,7 +141,7 @@ pub fn conform(mesh: &mut Mesh) {
             let own = turned[face] == Some(true);
             for &(other, agree) in &neighbours[face] {
                 if turned[other].is_none() {
-                    turned[other] = Some(own != !agree);
+                    turned[other] = Some(own == agree);
                     part.push(other);
                 }
             }

@@ -69,7 +69,7 @@ fn uv_test(x: u32, y: u32) -> [f64; 3] {
         return grey(1.0);
     }
     let (u, v) = (f64::from(x / 16) / 7.0, 1.0 - f64::from(y / 16) / 7.0);
-    let shade = if (x / 16 + y / 16) % 2 == 0 { 1.0 } else { 0.8 };
+    let shade = if (x / 16 + y / 16).is_multiple_of(2) { 1.0 } else { 0.8 };
     [(0.15 + 0.8 * u) * shade, (0.15 + 0.8 * v) * shade, 0.3 * shade]
 }
 

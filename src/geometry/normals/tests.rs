@@ -60,9 +60,10 @@ proptest! {
 
     #[test]
     fn open_sheets_look_up(turned in any::<u8>()) {
-        let mut mesh = Mesh::default();
-        mesh.positions = (0..9u32).flat_map(|i| [0.0, 1.0].map(|z| DVec3::new(f64::from(i), 0.2 * f64::from(i % 2), -z))).collect();
-        mesh.faces = (0..8u32).map(|i| Face::new([2 * i, 2 * i + 2, 2 * i + 3, 2 * i + 1].as_slice())).collect();
+        let mut mesh = Mesh {
+            positions: (0..9u32).flat_map(|i| [0.0, 1.0].map(|z| DVec3::new(f64::from(i), 0.2 * f64::from(i % 2), -z))).collect(),
+            faces: (0..8u32).map(|i| Face::new([2 * i, 2 * i + 2, 2 * i + 3, 2 * i + 1].as_slice())).collect(),
+        };
         mesh.faces.iter_mut().enumerate().filter(|(i, _)| turned >> i & 1 == 1).for_each(|(_, f)| flip_face(f));
         conform(&mut mesh);
         prop_assert!(mesh.faces.iter().all(|f| mesh.normal(f).y > 0.0));
