@@ -86,6 +86,8 @@ codes! {
     NEVER_FITS "cga::never-fits"
     /// A terminal dot behind a name that has a rule.
     NEEDLESS_DOT "cga::needless-dot"
+    /// An operation behind the last shape.
+    NO_EFFECT "cga::no-effect"
     /// A construct that meant something else in the version the file was written for.
     CHANGED_MEANING "cga::changed-meaning"
     /// An operation that the language no longer has.

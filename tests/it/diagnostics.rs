@@ -7,7 +7,7 @@
 use std::path::{Path, PathBuf};
 
 use mansard::cga::{self, CompileOptions, codes};
-use mansard::diagnostics::{Diagnostics, explain, pages, render};
+use mansard::diagnostics::{Diagnostic, Diagnostics, explain, pages, render};
 use mansard::geometry::{Mesh, PlaneFrame, Polygon};
 use mansard::interpreter::seed::Seed;
 use mansard::interpreter::tree::Scalar;
@@ -83,7 +83,11 @@ fn problems(code: &str) -> Vec<String> {
     let (diagnostics, sources) = said(&path, &text);
     let here = format!("{}/", cases().display());
     let real = format!("{}/", cases().canonicalize().expect("the folder of the cases exists").display());
-    let shown = |d| render(d, &sources, false).replace(&here, "").replace(&real, "");
+    let shown = |d: &Diagnostic| {
+        // Before the lines are broken: where the repository lies must not show.
+        let message = d.message.replace(&here, "").replace(&real, "");
+        render(&Diagnostic { message, ..d.clone() }, &sources, false).replace(&here, "").replace(&real, "")
+    };
     let got: String = diagnostics.iter().map(shown).collect();
     let mut out = Vec::new();
     if !diagnostics.iter().any(|d| d.code == code) {

@@ -1,3 +1,5 @@
+//! In: boxes and polygons. Out: what is near what, against slower ways to find it.
+
 use glam::{DMat3, DVec3};
 use proptest::prelude::*;
 

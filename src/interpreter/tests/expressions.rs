@@ -79,6 +79,19 @@ fn more_of_the_library() {
 }
 
 #[test]
+fn angles_are_degrees() {
+    let cases = [
+        ("rint(100 * cos(60)) + rint(100 * sin(30)) + rint(100 * tan(45))", "200"),
+        ("cos(0) + cos(180)", "0"),
+        ("rint(acos(cos(33))) + rint(asin(sin(12))) + rint(atan(tan(-7)))", "38"),
+        ("isinf(1 / cos(90)) || cos(90) < 1e-15", "true"),
+    ];
+    for (expression, expected) in cases {
+        assert_eq!(printed(expression), expected, "{expression}");
+    }
+}
+
+#[test]
 fn functions_locals_and_recursion() {
     let rules = r#"
 half(x) with( h := x / 2 ) = h

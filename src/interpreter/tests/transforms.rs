@@ -26,6 +26,20 @@ fn moving_turning_scaling() {
 }
 
 #[test]
+fn rotating_in_a_named_system() {
+    let turned = |body: &str, r: [f64; 3]| near(&show(&format!("{BLOCK}{body} Show")).r, &r);
+    turned("rotate(rel, pivot, 0, 90, 0)", [0.0, 90.0, 0.0]);
+    turned("rotate(rel, scope, 0, 30, 0) rotate(rel, world, 0, 30, 0)", [0.0, 60.0, 0.0]);
+    turned("r(0, 40, 0) rotate(abs, world, 0, 10, 0)", [0.0, 10.0, 0.0]);
+    turned("r(0, 40, 0) rotate(abs, pivot, 0, 0, 0)", [0.0, 0.0, 0.0]);
+    // After a quarter turn about y, the world's x is the scope's own z.
+    turned("r(0, 90, 0) rotate(rel, world, 90, 0, 0)", [90.0, 0.0, 90.0]);
+    let tree = run("Lot --> extrude(8) r(0, 90, 0) rotate(rel, world, 90, 0, 0)", LOT);
+    let axes = tree.leaves[0].mesh.bounds().expect("a block");
+    near(&(axes.1 - axes.0).to_array(), &[10.0, 20.0, 8.0]);
+}
+
+#[test]
 fn geometry_follows_the_scope() {
     let tree = run("Lot --> extrude(8) s('0.5,'1,-2) t(1,0,0)", LOT);
     let (low, high) = tree.leaves[0].mesh.bounds().expect("a block");

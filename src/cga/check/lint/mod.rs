@@ -6,6 +6,7 @@
 mod constant;
 mod endless_recursion;
 mod never_fits;
+mod no_effect;
 mod old_versions;
 #[cfg(test)]
 mod tests;
@@ -25,6 +26,7 @@ pub fn lint(program: &Program, tables: &Tables<'_>, diagnostics: &mut Diagnostic
     endless_recursion::check(program, diagnostics);
     unreachable::check(program, tables.files, diagnostics);
     never_fits::check(program, diagnostics);
+    no_effect::check(program, diagnostics);
 }
 
 /// Changes of meaning that the version of each file is older than; needs no program.

@@ -88,3 +88,20 @@ fn constructs_that_changed_after_the_file_s_version() {
     silent("version \"2025.1\" attr a = geometry.area A --> s(-1, '1, '1) extrude(a) offset(-1)");
     silent("A --> s(-1, '1, '1) extrude(2)");
 }
+
+#[test]
+fn operations_behind_the_last_shape() {
+    const CODE: &str = "cga::no-effect";
+    assert_eq!(found("A --> B. t(1, 0, 0) s(1, 1, 1)"), [(CODE, "t(1, 0, 0)")]);
+    assert_eq!(found("A --> [ B. ] t(0, 3, 0) roofHip(30)"), [(CODE, "t(0, 3, 0)")]);
+    assert_eq!(found("A --> [ t(1, 0, 0) ] B."), [(CODE, "t(1, 0, 0)")]);
+    assert_eq!(found("A --> case scope.sx > 1 : NIL color(\"#fff\") else : extrude(3)"), [(CODE, "color(\"#fff\")")]);
+    assert_eq!(found("A --> comp(f) { top : B. extrude(1) }"), [(CODE, "extrude(1)")]);
+    assert_eq!(found("attr h = 1 A --> B. set(h, 2)"), [(CODE, "set(h, 2)")]);
+    silent("A --> [ t(1, 0, 0) B. ] t(2, 0, 0) C.");
+    silent("A --> B. report(\"n\", 1)");
+    silent("A --> B. label(\"b\")");
+    silent("A --> [ report(\"n\", 1) ] extrude(3) inline { t(1, 0, 0) }");
+    silent("A --> B. inline { report(\"n\", 1) }");
+    silent("A --> extrude(3)");
+}
