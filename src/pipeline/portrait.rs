@@ -27,8 +27,11 @@ const AZIMUTH: f64 = 148.0;
 const SUN: (f64, f64) = (48.0, 215.0);
 /// Share of the image that stays free around the shape.
 const MARGIN: f64 = 0.06;
+/// Pixels on each side of an edge.
+const LINE: f64 = 0.9;
+/// Pixels that lines stand in front of their faces.
+const LIFT: f64 = 0.4;
 /// Pixels.
-const LINE: f64 = 1.3;
 const POINT: f64 = 7.0;
 
 const FLOOR: [f64; 3] = [0.93, 0.935, 0.93];
@@ -162,21 +165,27 @@ impl Sketch {
         mesh
     }
 
+    /// Strips along the edges of every face, on the face, so that what hides the face hides them.
     fn lines(&self, tree: &ShapeTree) -> TriMesh {
         let mut mesh = TriMesh::default();
         let faces = tree.leaves.iter().flat_map(|l| l.mesh.faces.iter().map(move |f| (&l.mesh, f)));
         for (body, face) in faces {
+            let normal = body.normal(face);
             for (a, b) in Face::edges(face) {
-                self.line(&mut mesh, body.positions[a as usize], body.positions[b as usize]);
+                self.strip(&mut mesh, body.positions[a as usize], body.positions[b as usize], normal);
             }
         }
         mesh
     }
 
-    fn line(&self, mesh: &mut TriMesh, a: DVec3, b: DVec3) {
+    /// A strip of [`LINE`] in the image on the left of an edge.
+    fn strip(&self, mesh: &mut TriMesh, a: DVec3, b: DVec3, normal: DVec3) {
+        let inwards = normal.cross(b - a).normalize_or_zero();
         let Some(across) = self.towards.cross(b - a).try_normalize() else { return };
-        let (aside, lift) = (across * (LINE * self.pixel / 2.0), self.towards * (1.5 * self.pixel));
-        quad(mesh, [a - aside, b - aside, b + aside, a + aside].map(|p| p + lift), self.towards);
+        // A face seen almost edge on is not made into a spike.
+        let inwards = inwards * (LINE * self.pixel / inwards.dot(across).abs().max(0.2));
+        let lift = self.towards * (LIFT * self.pixel);
+        quad(mesh, [a, b, b + inwards, a + inwards].map(|p| p + lift), self.towards);
     }
 
     /// Leaves without faces: a dot at every point.

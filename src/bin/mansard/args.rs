@@ -136,7 +136,8 @@ pub struct WorkOptions {
 pub struct DeriveArgs {
     /// The .cga file
     pub rules: PathBuf,
-    /// Corners "x,z x,z ..." in metres, y up; holes after `;`, in the order given; more start shapes see each other
+    /// Corners "x,z x,z ..." in metres, y up, in the order given, holes after `;`; may be given several times: the
+    /// start shapes see each other
     #[arg(long, value_name = "RINGS", allow_hyphen_values = true, required = true)]
     pub footprint: Vec<String>,
     /// A street along an edge of the footprint, counted from 0
@@ -148,8 +149,10 @@ pub struct DeriveArgs {
     /// Start rule; the file's own @StartRule otherwise
     #[arg(long, value_name = "RULE")]
     pub start: Option<String>,
+    /// Value of an attribute of the rules; may be given several times
     #[arg(long = "attr", value_name = "NAME=VALUE")]
     pub attributes: Vec<String>,
+    /// Seed of every random draw
     #[arg(long, default_value_t = 0)]
     pub seed: u64,
     #[arg(long, value_enum, default_value_t = DeriveFormat::Tree)]

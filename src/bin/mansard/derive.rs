@@ -56,8 +56,10 @@ pub fn run(args: &DeriveArgs, quiet: bool) -> Result<(), Failure> {
     if program.is_some() || args.format == DeriveFormat::Json {
         write(&tree, &outline, args, &access, &sources)?;
     }
-    let scene = args.rules.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-    reports::write(args.reports.as_ref(), &[SceneReports { scene, features }])?;
+    if program.is_some() {
+        let scene = args.rules.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        reports::write(args.reports.as_ref(), &[SceneReports { scene, features }])?;
+    }
     // The tree and the JSON hold the reports themselves.
     if !quiet && !matches!(args.format, DeriveFormat::Tree | DeriveFormat::Json) {
         eprint!("{}", table(&tree.reports));
