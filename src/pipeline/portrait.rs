@@ -30,7 +30,9 @@ const MARGIN: f64 = 0.06;
 /// Pixels on each side of an edge.
 const LINE: f64 = 0.9;
 /// Pixels that lines stand in front of their faces.
-const LIFT: f64 = 0.4;
+const LIFT: f64 = 0.12;
+/// Pixels that the outer halves of lines stand behind their edges, seen only against what lies farther away.
+const DEPTH: f64 = 1.0;
 /// Pixels.
 const POINT: f64 = 7.0;
 
@@ -178,10 +180,12 @@ impl Sketch {
         mesh
     }
 
-    /// A strip of [`LINE`] in the image on the left of an edge.
+    /// A strip of [`LINE`] in the image on the left of an edge, and one on both sides behind it.
     fn strip(&self, mesh: &mut TriMesh, a: DVec3, b: DVec3, normal: DVec3) {
         let inwards = normal.cross(b - a).normalize_or_zero();
         let Some(across) = self.towards.cross(b - a).try_normalize() else { return };
+        let (aside, back) = (across * (LINE * self.pixel), self.towards * (-DEPTH * self.pixel));
+        quad(mesh, [a - aside, b - aside, b + aside, a + aside].map(|p| p + back), self.towards);
         // A face seen almost edge on is not made into a spike.
         let inwards = inwards * (LINE * self.pixel / inwards.dot(across).abs().max(0.2));
         let lift = self.towards * (LIFT * self.pixel);
