@@ -191,7 +191,7 @@ fn accepts_what_the_reference_allows() {
             .split(" extrude")
             .next()
             .expect("a text"),
-        "t(x) --> extrude(x) A --> t(1) t(0, '1, 0)",
+        "t(x) --> extrude(x) A --> t(1) t(0, '1, 0) B.",
         "rand(x) = x attr a = rand(3) + rand()",
         "f(x) = x * 2 f(x, y) = x + y attr a = f(1) + f(1, 2)",
         "A --> Roof(30) Roof(\"flat\") Roof(a) --> roofHip(a) Roof(kind) --> report(kind + \"!\", 1) color(kind)",
@@ -245,7 +245,7 @@ fn overloads_are_chosen_by_number_and_type() {
 #[test]
 fn anonymous_leaves_stand_where_nothing_makes_a_shape() {
     let found = program(
-        "A --> extrude(3) B --> extrude(3) A C --> [ extrude(1) ] D --> [ A ] E --> comp(f) { top : color(\"#fff\") }",
+        "A --> extrude(3) B --> extrude(3) A C --> [ report(\"n\", 1) ] D --> [ A ] E --> comp(f) { top : color(\"#fff\") }",
     );
     let leaf = |rule: usize| match &found.rules()[rule].successor {
         Successor::Sequence(sequence) => sequence.implicit_leaf,
