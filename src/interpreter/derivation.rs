@@ -42,7 +42,7 @@ pub struct Derivation<'p> {
     /// Name of the rule the initial shape was derived with.
     pub start_rule: Arc<str>,
     /// What the derivation began with, before its attributes were known.
-    pub initial: Option<Shape>,
+    pub initial: Option<Box<Shape>>,
     pub leaves: Leaves<'p>,
     pub reports: Reports,
     pub prints: Vec<String>,
@@ -66,7 +66,7 @@ pub struct Derivation<'p> {
 
 /// A shape waiting for its rule.
 pub struct Task<'p> {
-    pub shape: Shape,
+    pub shape: Box<Shape>,
     pub symbol: Symbol<'p>,
     pub args: Vec<Value>,
     pub step: StepId,
@@ -144,16 +144,16 @@ impl<'p> Derivation<'p> {
     fn work(&mut self) -> Outcome<()> {
         let Some(first) = start::prepare(self)? else { return Ok(()) };
         self.pending.push(first);
-        while let Some(mut task) = self.pending.pop() {
+        while let Some(task) = self.pending.pop() {
             match task.symbol {
                 Symbol::Leaf(name) => {
                     self.note_leaf(&task);
-                    self.leaves.push(name, &mut task.shape, &self.steps, task.step);
+                    self.leaves.push(name, task.shape, &self.steps, task.step);
                 }
                 Symbol::Rule(rule) => {
                     self.running = Some(task.step);
                     let children = std::mem::take(&mut self.spare);
-                    let mut children = self.derive_rule(rule, &mut task, children)?;
+                    let mut children = self.derive_rule(rule, task, children)?;
                     self.pending.extend(children.drain(..).rev());
                     self.spare = children;
                     self.check_pending(rule)?;

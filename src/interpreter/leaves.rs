@@ -28,24 +28,24 @@ impl<'p> Leaves<'p> {
     }
 
     /// Adds a leaf: one entry per material its faces have of their own. Shapes without geometry leave nothing.
-    pub fn push(&mut self, name: &'p Arc<str>, shape: &mut Shape, steps: &Steps<'p>, step: StepId) {
+    pub fn push(&mut self, name: &'p Arc<str>, mut shape: Box<Shape>, steps: &Steps<'p>, step: StepId) {
         shape.bake();
-        let form = std::mem::take(&mut shape.form);
+        let Shape { form, state, .. } = *shape;
         if form.is_empty() {
             return;
         }
         let path = steps.path(step);
         let rule = self.names.own(name);
         if form.face_materials.is_empty() {
-            let material = self.materials.intern(&shape.state.appearance);
+            let material = self.materials.intern(&state.appearance);
             let mesh = Arc::try_unwrap(form).map_or_else(|shared| shared.mesh.clone(), |form| form.mesh);
             self.list.push(Leaf { rule, path, attributes: self.attributes.clone(), material, mesh });
             return;
         }
         for (own, part) in parts_by_material(form) {
             let appearance = match own.and_then(|i| part.materials.get(i)) {
-                Some(below) => Arc::new(shape.state.appearance.over(below)),
-                None => shape.state.appearance.clone(),
+                Some(below) => Arc::new(state.appearance.over(below)),
+                None => state.appearance.clone(),
             };
             let material = self.materials.intern(&appearance);
             let mesh = Arc::try_unwrap(part).map_or_else(|shared| shared.mesh.clone(), |form| form.mesh);

@@ -39,7 +39,7 @@ pub fn prepare<'p>(run: &mut Derivation<'p>) -> Outcome<Option<Task<'p>>> {
     if !street_widths.is_empty() {
         run.streets = Streets::new(Outline::new(&run.start.mesh, &mesh), street_widths);
     }
-    let mut shape = initial_shape(mesh, run);
+    let mut shape = Box::new(initial_shape(mesh, run));
     run.initial = Some(shape.clone());
     evaluate_attributes(run, &mut shape)?;
     run.leaves.set_attributes(exported(run, &shape));

@@ -116,10 +116,10 @@ impl<'p> Derivation<'p> {
         span: Span,
     ) -> Outcome<Vec<Shape>> {
         self.enter_block(span)?;
-        let mut copy = shape.clone();
+        let mut copy = Box::new(shape.clone());
         copy.seed = seed;
         self.begin_trail(&mut copy);
-        let tasks = self.execute_apart(block, &mut copy, body)?;
+        let tasks = self.execute_apart(block, copy, body)?;
         let leaves = self.finish_tasks(tasks, span)?;
         self.leave_block();
         Ok(leaves)
@@ -135,12 +135,12 @@ impl<'p> Derivation<'p> {
                 Symbol::Leaf(_) => {
                     task.shape.bake();
                     if !task.shape.form.is_empty() {
-                        leaves.push(task.shape);
+                        leaves.push(*task.shape);
                     }
                 }
                 Symbol::Rule(rule) => {
                     self.running = Some(task.step);
-                    let children = self.derive_rule(rule, &mut task, Vec::new())?;
+                    let children = self.derive_rule(rule, task, Vec::new())?;
                     pending.extend(children.into_iter().rev());
                     self.check_waiting(pending.len(), span)?;
                 }

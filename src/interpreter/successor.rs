@@ -35,13 +35,13 @@ const GROUP: u64 = 3 << 40;
 
 impl<'p> Derivation<'p> {
     /// Runs a rule on a shape. `children` is an empty list to fill.
-    pub fn derive_rule(&mut self, id: RuleId, task: &mut Task<'p>, children: Vec<Task<'p>>) -> Outcome<Vec<Task<'p>>> {
+    pub fn derive_rule(&mut self, id: RuleId, task: Task<'p>, children: Vec<Task<'p>>) -> Outcome<Vec<Task<'p>>> {
         let rule = self.program.rule(id);
-        let Task { shape, args, step, .. } = task;
-        self.begin_trail(shape);
-        let mut body = Body { slots: std::mem::take(args), children, step: *step, span: rule.span };
+        let Task { mut shape, args, step, .. } = task;
+        self.begin_trail(&mut shape);
+        let mut body = Body { slots: args, children, step, span: rule.span };
         for (i, local) in rule.locals.iter().enumerate() {
-            let value = self.eval(local, &Env::new(shape, &body.slots, GROUP + i as u64))?;
+            let value = self.eval(local, &Env::new(&shape, &body.slots, GROUP + i as u64))?;
             body.slots.push(value);
         }
         let reference = shape.scope;
@@ -49,10 +49,11 @@ impl<'p> Derivation<'p> {
         Ok(body.children)
     }
 
+    /// Runs a successor on a shape that nobody needs afterwards: its last child takes the shape itself.
     fn execute(
         &mut self,
         successor: &'p Successor,
-        shape: &mut Shape,
+        shape: Box<Shape>,
         reference: &Scope,
         body: &mut Body<'p>,
     ) -> Outcome<()> {
@@ -60,14 +61,14 @@ impl<'p> Derivation<'p> {
             Successor::Sequence(sequence) => self.execute_sequence(sequence, shape, reference, body),
             Successor::Case { branches, otherwise } => {
                 for (condition, branch) in branches {
-                    if self.eval_bool(condition, &Env::new(shape, &body.slots, 0))? {
+                    if self.eval_bool(condition, &Env::new(&shape, &body.slots, 0))? {
                         return self.execute(branch, shape, reference, body);
                     }
                 }
                 self.execute(otherwise, shape, reference, body)
             }
             Successor::Stochastic { branches, otherwise, site } => {
-                let chosen = choice::choose(self, branches, *site, &Env::new(shape, &body.slots, 0))?;
+                let chosen = choice::choose(self, branches, *site, &Env::new(&shape, &body.slots, 0))?;
                 self.execute(chosen.unwrap_or(otherwise), shape, reference, body)
             }
         }
@@ -76,26 +77,56 @@ impl<'p> Derivation<'p> {
     fn execute_sequence(
         &mut self,
         sequence: &'p Sequence,
-        shape: &mut Shape,
+        mut shape: Box<Shape>,
         reference: &Scope,
         body: &mut Body<'p>,
     ) -> Outcome<()> {
-        for (place, item) in sequence.items.iter().enumerate() {
-            self.execute_item(item, place as u64 + 1, shape, reference, body)?;
+        let Some((last, before)) = sequence.items.split_last().filter(|_| !sequence.implicit_leaf) else {
+            for (place, item) in sequence.items.iter().enumerate() {
+                self.execute_item(item, place as u64 + 1, &mut shape, reference, body)?;
+            }
+            if sequence.implicit_leaf {
+                let name = self.steps.name(body.step);
+                let place = sequence.items.len() as u64 + 1;
+                self.add_child(Symbol::Leaf(name), Vec::new(), place, shape, body, body.span)?;
+            }
+            return Ok(());
+        };
+        for (place, item) in before.iter().enumerate() {
+            self.execute_item(item, place as u64 + 1, &mut shape, reference, body)?;
         }
-        if sequence.implicit_leaf {
-            let name = self.steps.name(body.step);
-            let place = sequence.items.len() as u64 + 1;
-            self.add_child(Symbol::Leaf(name), Vec::new(), place, shape, body, body.span)?;
-        }
-        Ok(())
+        self.execute_last(last, sequence.items.len() as u64, shape, reference, body)
+    }
+
+    /// As [`Derivation::execute_item`], on a shape that nobody needs afterwards.
+    fn execute_last(
+        &mut self,
+        item: &'p Item,
+        place: u64,
+        mut shape: Box<Shape>,
+        reference: &Scope,
+        body: &mut Body<'p>,
+    ) -> Outcome<()> {
+        let (symbol, args, span) = match item {
+            Item::Call { rule, args, span } => (Symbol::Rule(*rule), args, span),
+            Item::Leaf { symbol, args, span } => (Symbol::Leaf(symbol), args, span),
+            Item::Group(inner) => {
+                shape.seed = shape.seed.part(GROUP + place);
+                self.begin_trail(&mut shape);
+                let reference = shape.scope;
+                return self.execute(inner, shape, &reference, body);
+            }
+            other => return self.execute_item(other, place, &mut shape, reference, body),
+        };
+        let args = self.eval_values(args, place, &shape, body)?;
+        self.add_child(symbol, args, place, shape, body, *span)
     }
 
     fn execute_item(
         &mut self,
         item: &'p Item,
         place: u64,
-        shape: &mut Shape,
+        shape: &mut Box<Shape>,
         reference: &Scope,
         body: &mut Body<'p>,
     ) -> Outcome<()> {
@@ -118,7 +149,7 @@ impl<'p> Derivation<'p> {
             }
             Item::Call { rule, args, span } => {
                 let args = self.eval_values(args, place, shape, body)?;
-                self.add_child(Symbol::Rule(*rule), args, place, shape, body, *span)
+                self.add_child(Symbol::Rule(*rule), args, place, shape.clone(), body, *span)
             }
             Item::Instantiate { import, overrides, rule, args, span } => {
                 let args = self.eval_values(args, place, shape, body)?;
@@ -126,11 +157,11 @@ impl<'p> Derivation<'p> {
                 let given: Outcome<Vec<_>> = overrides.iter().map(|(id, e)| Ok((*id, self.eval(e, &env)?))).collect();
                 let mut anew = shape.clone();
                 dynamic_import::instantiate(self, *import, given?, &mut anew)?;
-                self.add_child(Symbol::Rule(*rule), args, place, &anew, body, *span)
+                self.add_child(Symbol::Rule(*rule), args, place, anew, body, *span)
             }
             Item::Leaf { symbol, args, span } => {
-                self.eval_values(args, place, shape, body)?;
-                self.add_child(Symbol::Leaf(symbol), Vec::new(), place, shape, body, *span)
+                let args = self.eval_values(args, place, shape, body)?;
+                self.add_child(Symbol::Leaf(symbol), args, place, shape.clone(), body, *span)
             }
             Item::Discard => {
                 self.note_discarded(shape);
@@ -141,7 +172,7 @@ impl<'p> Derivation<'p> {
                 copy.seed = shape.seed.part(GROUP + place);
                 self.begin_trail(&mut copy);
                 let reference = copy.scope;
-                self.execute(inner, &mut copy, &reference, body)
+                self.execute(inner, copy, &reference, body)
             }
             Item::Inline { .. } | Item::Boolean { .. } | Item::Modify { .. } => {
                 self.execute_inside(item, place, shape, body)
@@ -172,7 +203,7 @@ impl<'p> Derivation<'p> {
     pub fn execute_apart(
         &mut self,
         block: &'p Successor,
-        shape: &mut Shape,
+        shape: Box<Shape>,
         body: &mut Body<'p>,
     ) -> Outcome<Vec<Task<'p>>> {
         let children = std::mem::take(&mut body.children);
@@ -183,11 +214,11 @@ impl<'p> Derivation<'p> {
     }
 
     /// Runs each piece's block on the piece.
-    fn execute_pieces(&mut self, mut pieces: Pieces<'p>, seed: Seed, body: &mut Body<'p>) -> Outcome<()> {
+    fn execute_pieces(&mut self, pieces: Pieces<'p>, seed: Seed, body: &mut Body<'p>) -> Outcome<()> {
         body.children.reserve(pieces.len());
-        for (number, (piece, successor)) in pieces.iter_mut().enumerate() {
+        for (number, (mut piece, successor)) in pieces.into_iter().enumerate() {
             piece.seed = seed.part(number as u64);
-            self.begin_trail(piece);
+            self.begin_trail(&mut piece);
             let reference = piece.scope;
             self.count_vertices(piece.form.mesh.positions.len(), body.span)?;
             self.execute(successor, piece, &reference, body)?;
@@ -203,12 +234,13 @@ impl<'p> Derivation<'p> {
         args.iter().map(|arg| self.eval(arg, &env)).collect()
     }
 
+    /// Lets the shape itself wait for its symbol.
     fn add_child(
         &mut self,
         symbol: Symbol<'p>,
         args: Vec<Value>,
         place: u64,
-        shape: &Shape,
+        mut shape: Box<Shape>,
         body: &mut Body<'p>,
         span: Span,
     ) -> Outcome<()> {
@@ -218,7 +250,6 @@ impl<'p> Derivation<'p> {
             Symbol::Leaf(name) => name,
         };
         let step = self.step(body.step, body.children.len() as u32, name, span)?;
-        let mut shape = shape.clone();
         shape.seed = shape.seed.part(CHILD + place);
         if shape.state.seedian.is_some() {
             shape.state_mut().seedian = None;

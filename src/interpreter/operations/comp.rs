@@ -62,7 +62,7 @@ pub fn pieces_and_rest<'p>(
                 components.add_trim_planes(trims, group[0], &mut shape);
             }
             (shape.comp, shape.comp_index) = (split.clone(), index as i32);
-            out.push((shape, &selector.body));
+            out.push((Box::new(shape), &selector.body));
         }
     }
     let taken = |i: &usize| owners[*i].is_some();

@@ -78,7 +78,7 @@ use crate::source::Span;
 use args::Args;
 
 /// New shapes with the blocks to run on them, in order.
-pub type Pieces<'p> = Vec<(Shape, &'p Successor)>;
+pub type Pieces<'p> = Vec<(Box<Shape>, &'p Successor)>;
 
 /// Runs an operation without a block.
 pub fn apply(

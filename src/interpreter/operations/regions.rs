@@ -78,7 +78,7 @@ fn shapes<'p>(run: &Derivation, parent: &Shape, selectors: &'p [Selector], regio
         for (index, group) in groups.into_iter().enumerate() {
             let mut shape = region(parent, &group, distances.as_deref().map(Cuts::Edges), rest == Some(number));
             (shape.comp, shape.comp_index) = (split.clone(), index as i32);
-            out.push((shape, &selector.body));
+            out.push((Box::new(shape), &selector.body));
         }
     }
     out

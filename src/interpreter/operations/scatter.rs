@@ -47,7 +47,7 @@ pub fn pieces<'p>(run: &mut Derivation<'p>, args: &Args, body: &'p Successor, en
             Some(bell) => domain.gaussian(bell, dice),
         }
     };
-    Ok((0..n as u64).map(|i| (point_shape(&parent, place(i)), body)).collect())
+    Ok((0..n as u64).map(|i| (Box::new(point_shape(&parent, place(i))), body)).collect())
 }
 
 /// A point and, on a surface, its normal.

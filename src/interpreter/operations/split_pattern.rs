@@ -86,7 +86,7 @@ impl<'p> Layout<'p> {
         let mut pieces: Pieces<'p> = Vec::with_capacity(self.slabs.len());
         for (i, (slab, form)) in self.slabs.iter().zip(forms).enumerate() {
             if !form.is_empty() || parent.form.is_empty() {
-                pieces.push((piece(i, form), self.bodies[slab.body]));
+                pieces.push((Box::new(piece(i, form)), self.bodies[slab.body]));
             }
         }
         let total = pieces.len() as u32;

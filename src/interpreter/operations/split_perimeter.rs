@@ -64,14 +64,14 @@ pub fn pieces<'p>(
                 let mut shape = region(&parent, &group, cuts, false);
                 shape.split_index = index;
                 shape.split_total = total;
-                out.push((shape, contents[section.content].1));
+                out.push((Box::new(shape), contents[section.content].1));
             }
             index += 1;
         }
         rests.extend(cut.rest.into_iter().map(|p| (face.number, p)));
     }
     if let Some(body) = remainder {
-        out.extend(rests.into_iter().map(|rest| (region(&parent, &[rest], cuts, true), body)));
+        out.extend(rests.into_iter().map(|rest| (Box::new(region(&parent, &[rest], cuts, true)), body)));
     }
     run.count_shapes(out.len(), span)?;
     Ok(out)
