@@ -6,10 +6,12 @@ mod pairs;
 
 use std::sync::Arc;
 
+use super::palette::Paint;
 use super::value::Value;
 use crate::cga::builtins::{Attr, MapLayer, MapPart, MaterialAttr};
 
 const COLORMAP: MaterialAttr = MaterialAttr::Map(MapLayer::Color, MapPart::Path);
+pub const OPACITYMAP: MaterialAttr = MaterialAttr::Map(MapLayer::Opacity, MapPart::Path);
 
 /// The name without `material.`.
 fn name_of(attr: MaterialAttr) -> &'static str {
@@ -31,6 +33,22 @@ pub struct Appearance {
 }
 
 impl Appearance {
+    /// Changes colour or texture.
+    pub fn paint(&mut self, paint: &Paint) {
+        match paint {
+            Paint::Color { rgb, opacity } => {
+                self.color = rgb.map(Some);
+                self.opacity = opacity.or(self.opacity);
+            }
+            Paint::Texture { path, opacity_map } => {
+                if let Some(map) = opacity_map {
+                    self.set(OPACITYMAP, Value::String(map.clone()));
+                }
+                self.colormap = Some(path.clone());
+            }
+        }
+    }
+
     /// Sets one attribute; a colour that cannot be read leaves it as it was.
     pub fn set(&mut self, attr: MaterialAttr, value: Value) {
         let share = |value: &Value| Some(value.to_float().clamp(0.0, 1.0));
@@ -114,12 +132,14 @@ impl Appearance {
 
 /// `#rrggbb` or `#rrggbboo` as colour and opacity, 0..1; `None` if it is neither.
 pub fn parse_color(text: &str) -> Option<([f64; 3], Option<f64>)> {
-    let digits = text.strip_prefix('#')?;
-    if !matches!(digits.len(), 6 | 8) || !digits.bytes().all(|b| b.is_ascii_hexdigit()) {
-        return None;
-    }
-    let pair = |i: usize| u8::from_str_radix(&digits[i..i + 2], 16).ok().map(|byte| f64::from(byte) / 255.0);
-    let opacity = if digits.len() == 8 { Some(pair(6)?) } else { None };
+    let digits = text.strip_prefix('#')?.as_bytes();
+    let digit = |i: usize| char::from(digits[i]).to_digit(16);
+    let pair = |i: usize| Some(f64::from(digit(i)? * 16 + digit(i + 1)?) / 255.0);
+    let opacity = match digits.len() {
+        6 => None,
+        8 => Some(pair(6)?),
+        _ => return None,
+    };
     Some(([pair(0)?, pair(2)?, pair(4)?], opacity))
 }
 

@@ -12,6 +12,7 @@ use super::context::{Context, Surroundings, Survey};
 use super::leaves::Leaves;
 use super::limits::{Limits, Outcome, Stop};
 use super::outline::Outline;
+use super::palette::Palette;
 use super::placement::Frame;
 use super::provenance::Sources;
 use super::reports::Reports;
@@ -43,6 +44,7 @@ pub struct Derivation<'p> {
     pub start_rule: Arc<str>,
     /// What the derivation began with, before its attributes were known.
     pub initial: Option<Box<Shape>>,
+    pub palette: Palette,
     pub leaves: Leaves<'p>,
     pub reports: Reports,
     pub prints: Vec<String>,
@@ -93,6 +95,7 @@ impl<'p> Derivation<'p> {
             streets: None,
             start_rule: "".into(),
             initial: None,
+            palette: Palette::default(),
             leaves: Leaves::default(),
             reports: Reports::default(),
             prints: Vec::new(),

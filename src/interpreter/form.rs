@@ -9,8 +9,8 @@ use smallvec::SmallVec;
 
 use super::appearance::Appearance;
 use super::labels::Labels;
-use crate::geometry::Mesh;
 use crate::geometry::transform::normals_under;
+use crate::geometry::{Face, Mesh};
 
 /// The geometry of a shape, shared until it is changed. Positions are in the world as they were when it was made.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -108,6 +108,11 @@ impl Form {
 
 /// Copies the named faces with the vertices they use, numbered in the order the faces run through them.
 fn submesh(mesh: &Mesh, faces: &[usize]) -> Mesh {
+    if let &[face] = faces
+        && let Some(single) = single_face(mesh, &mesh.faces[face])
+    {
+        return single;
+    }
     let corners = faces.iter().map(|&f| mesh.faces[f].corners().count()).sum::<usize>();
     let most = corners.min(mesh.positions.len());
     let mut out = Mesh { positions: Vec::with_capacity(most), faces: Vec::with_capacity(faces.len()) };
@@ -120,6 +125,19 @@ fn submesh(mesh: &Mesh, faces: &[usize]) -> Mesh {
         out.faces.push(face);
     }
     out
+}
+
+/// A face of few corners, all different, without holes: its vertices are its corners in order.
+fn single_face(mesh: &Mesh, face: &Face) -> Option<Mesh> {
+    let ring = &face.outer;
+    let repeats = |(i, v): (usize, &u32)| ring[..i].contains(v);
+    if !face.holes.is_empty() || ring.len() > Renumbering::FEW || ring.iter().enumerate().any(repeats) {
+        return None;
+    }
+    let positions = ring.iter().map(|&v| mesh.positions[v as usize]).collect();
+    let outer = (0..ring.len() as u32).collect();
+    let face = Face { outer, holes: Vec::new(), uvs: face.uvs.clone(), normals: face.normals.clone() };
+    Some(Mesh { positions, faces: vec![face] })
 }
 
 /// New numbers for old vertices, in order of first use: a list while there are few, a tree for many.

@@ -95,16 +95,18 @@ impl<'p> Names<'p> {
 /// Equal materials are one.
 #[derive(Default)]
 struct MaterialTable {
-    last: Option<(Arc<Appearance>, Arc<Material>)>,
+    /// By address, those met last.
+    recent: Vec<(Arc<Appearance>, Arc<Material>)>,
+    oldest: usize,
     /// By the bits of colour and opacity.
     known: BTreeMap<[u64; 4], Vec<Arc<Material>>>,
 }
 
 impl MaterialTable {
+    const RECENT: usize = 8;
+
     fn intern(&mut self, appearance: &Arc<Appearance>) -> Arc<Material> {
-        if let Some((last, material)) = &self.last
-            && Arc::ptr_eq(last, appearance)
-        {
+        if let Some((_, material)) = self.recent.iter().find(|(known, _)| Arc::ptr_eq(known, appearance)) {
             return material.clone();
         }
         let material = appearance.material();
@@ -116,7 +118,13 @@ impl MaterialTable {
             same_color.push(material.clone());
             material
         });
-        self.last = Some((appearance.clone(), material.clone()));
+        let met = (appearance.clone(), material.clone());
+        if self.recent.len() < Self::RECENT {
+            self.recent.push(met);
+        } else {
+            self.recent[self.oldest] = met;
+            self.oldest = (self.oldest + 1) % Self::RECENT;
+        }
         material
     }
 }

@@ -30,6 +30,7 @@ pub mod obj;
 mod operations;
 mod orientation;
 mod outline;
+mod palette;
 mod placement;
 mod projection;
 mod provenance;

@@ -193,6 +193,25 @@ impl Shape {
         self.binding = self.scope;
     }
 
+    /// What a part of this one begins as: geometry of its own, in world positions, in a scope of its own.
+    pub fn piece(&self, form: Form, scope: Scope) -> Box<Shape> {
+        Box::new(Shape {
+            form: Arc::new(form),
+            binding: scope,
+            scope,
+            pivot: self.pivot,
+            state: self.state.clone(),
+            comp: self.comp.clone(),
+            comp_index: self.comp_index,
+            split_index: self.split_index,
+            split_total: self.split_total,
+            seed: self.seed,
+            trail: self.trail.clone(),
+            trim_source: self.trim_source.clone(),
+            provenance: self.provenance.clone(),
+        })
+    }
+
     /// Puts the pivot on the scope: translation and rotation become 0.
     pub fn pivot_to_scope(&mut self) {
         self.pivot = self.scope.frame;

@@ -14,6 +14,8 @@ pub struct Needs {
     pub far: bool,
     /// It labels shapes for others to meet.
     pub labels: bool,
+    /// Trim planes of face shapes: it inserts geometry or trims.
+    pub trims: bool,
     /// Data of the initial shape's edges: streets and edge attributes.
     pub edges: bool,
 }
@@ -49,6 +51,7 @@ impl Needs {
     /// Adds what an operation needs or gives.
     pub fn with_operation(mut self, operation: Operation) -> Needs {
         self.labels |= operation == Operation::Label;
+        self.trims |= operation.inserts() || operation == Operation::Trim;
         self.edges |= operation == Operation::SetTagsFromEdgeAttrs;
         self
     }

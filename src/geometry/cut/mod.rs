@@ -8,6 +8,7 @@
 pub(super) mod cap;
 mod face;
 mod levels;
+mod quad;
 mod sheet;
 
 use std::collections::BTreeMap;
@@ -18,6 +19,7 @@ use smallvec::SmallVec;
 use super::{Face, Mesh, Plane};
 use face::{CutFace, Side};
 pub use levels::slice_by_value;
+use quad::Quad;
 use sheet::Sheet;
 
 /// Where a face of a piece comes from.
@@ -62,17 +64,32 @@ pub fn cut(mesh: &Mesh, plane: &Plane) -> Cut {
 /// Cuts a mesh by the parallel planes `normal . p = boundary` (`normal` of length 1, `boundaries` rising) into
 /// `boundaries.len() + 1` pieces: before the first, between each pair, after the last. Pieces may be empty.
 pub fn slice(mesh: &Mesh, normal: DVec3, boundaries: &[f64]) -> Vec<Piece> {
+    let Some(mut quad) = Quad::of(mesh) else { return slice_one_by_one(mesh, normal, boundaries) };
     let thickness = thickness(mesh);
-    let origins = (0..mesh.faces.len() as u32).map(Origin::Face).collect();
-    let mut rest = Piece { mesh: mesh.clone(), origins };
     let mut pieces = Vec::with_capacity(boundaries.len() + 1);
+    for &offset in boundaries {
+        let Some(piece) = quad.cut(&Plane { normal, offset }, thickness) else { break };
+        pieces.push(piece);
+    }
+    let left = &boundaries[pieces.len()..];
+    slice_rest(quad.into_piece(), normal, left, thickness, &mut pieces);
+    pieces
+}
+
+fn slice_one_by_one(mesh: &Mesh, normal: DVec3, boundaries: &[f64]) -> Vec<Piece> {
+    let origins = (0..mesh.faces.len() as u32).map(Origin::Face).collect();
+    let mut pieces = Vec::with_capacity(boundaries.len() + 1);
+    slice_rest(Piece { mesh: mesh.clone(), origins }, normal, boundaries, thickness(mesh), &mut pieces);
+    pieces
+}
+
+fn slice_rest(mut rest: Piece, normal: DVec3, boundaries: &[f64], thickness: f64, pieces: &mut Vec<Piece>) {
     for &offset in boundaries {
         let Cut { behind, front } = cut_piece(rest, &Plane { normal, offset }, thickness);
         pieces.push(behind);
         rest = front;
     }
     pieces.push(rest);
-    pieces
 }
 
 /// Half the thickness of a plane: 16 steps of the kernel's grid for this extent (numerics section 3), 1.5e-8 of it, so

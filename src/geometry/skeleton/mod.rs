@@ -7,6 +7,7 @@ mod events;
 mod faces;
 mod line;
 mod meet;
+mod quad;
 mod setup;
 mod unite;
 mod wavefront;
@@ -84,6 +85,11 @@ pub enum SkeletonError {
 /// # Errors
 /// See [`SkeletonError`]; none for a polygon that passed the repair door, with valid weights.
 pub fn skeleton(polygon: &Polygon, weights: Option<&[f64]>) -> Result<Skeleton, SkeletonError> {
+    if weights.is_none()
+        && let Some(direct) = quad::skeleton(polygon)
+    {
+        return Ok(direct);
+    }
     run(polygon, weights, None, &Options::default())
 }
 

@@ -2,18 +2,17 @@
 
 use std::sync::Arc;
 
-use super::super::appearance::parse_color;
+use super::super::appearance::{OPACITYMAP, parse_color};
 use super::super::assets::builtin_image;
 use super::super::derivation::Derivation;
 use super::super::files;
 use super::super::form::Materials;
+use super::super::palette::Paint;
 use super::super::shape::Shape;
 use super::super::value::Value;
 use super::args::Args;
-use crate::cga::builtins::{MapLayer, MapPart, MaterialAttr, Word};
+use crate::cga::builtins::Word;
 use crate::source::Span;
-
-const OPACITYMAP: MaterialAttr = MaterialAttr::Map(MapLayer::Opacity, MapPart::Path);
 
 /// `color("#rrggbb[oo]")`, `color(r, g, b [, o])`. Text that is no colour warns and changes nothing.
 pub fn color(run: &mut Derivation, args: &Args, shape: &mut Shape) {
@@ -28,9 +27,7 @@ pub fn color(run: &mut Derivation, args: &Args, shape: &mut Shape) {
         let rgb = [part(run, 0), part(run, 1), part(run, 2)];
         (rgb, (args.len() > 3).then(|| part(run, 3)))
     };
-    let appearance = Arc::make_mut(&mut shape.state_mut().appearance);
-    appearance.color = rgb.map(Some);
-    appearance.opacity = opacity.or(appearance.opacity);
+    paint(run, shape, Paint::Color { rgb, opacity });
 }
 
 /// `texture(path)`: the colour map, and the opacity map if the image has an alpha channel; "" for none.
@@ -40,14 +37,14 @@ pub fn texture(run: &mut Derivation, args: &Args, shape: &mut Shape) {
     // A host without files, and an image that cannot be read, tell nothing of channels.
     let has_alpha = !path.is_empty() && files::image(run, &path, args.span).is_ok_and(|info| info.has_alpha);
     let has_own = shape.form.first_material().is_some();
-    let appearance = Arc::make_mut(&mut shape.state_mut().appearance);
-    let set_before = appearance.get(OPACITYMAP).is_some();
-    if has_alpha {
-        appearance.set(OPACITYMAP, Value::String(path.clone()));
-    } else if set_before || has_own {
-        appearance.set(OPACITYMAP, Value::text(""));
-    }
-    appearance.colormap = Some(path);
+    let set_before = shape.state.appearance.get(OPACITYMAP).is_some();
+    let opacity_map = if has_alpha { Some(path.clone()) } else { (set_before || has_own).then(|| Arc::from("")) };
+    paint(run, shape, Paint::Texture { path, opacity_map });
+}
+
+fn paint(run: &mut Derivation, shape: &mut Shape, paint: Paint) {
+    let painted = run.palette.painted(&shape.state.appearance, paint);
+    shape.state_mut().appearance = painted;
 }
 
 /// A texture's path as the host finds it; a missing file becomes the stand-in, with a warning (reference 2.11).

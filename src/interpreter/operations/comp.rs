@@ -14,6 +14,7 @@ use super::super::shape::{CompSplit, Shape};
 use super::super::value::Value;
 use super::Pieces;
 use super::components::{Components, Group};
+use crate::cga::builtins::Word;
 use crate::cga::program::{Component, Expr, ExprKind, ExprSelector, Selector, SelectorOperator, Type};
 use crate::source::Span;
 
@@ -32,7 +33,16 @@ pub fn pieces<'p>(
     span: Span,
     env: &Env,
 ) -> Outcome<Pieces<'p>> {
-    pieces_and_rest(run, component, keep_axes, selectors, span, env).map(|(pieces, _)| pieces)
+    Ok(take_apart(run, component, keep_axes, selectors, span, env)?.pieces)
+}
+
+/// A shape taken apart.
+struct Apart<'p> {
+    parent: Shape,
+    components: Components,
+    /// The number of the selector that took each component.
+    owners: Vec<Option<usize>>,
+    pieces: Pieces<'p>,
 }
 
 /// As [`pieces`], with the faces that lie in none of them.
@@ -44,13 +54,28 @@ pub fn pieces_and_rest<'p>(
     span: Span,
     env: &Env,
 ) -> Outcome<(Pieces<'p>, Vec<usize>)> {
+    let Apart { parent, components, owners, pieces } = take_apart(run, component, keep_axes, selectors, span, env)?;
+    let taken = |i: &usize| owners[*i].is_some();
+    let taken: BTreeSet<usize> = (0..owners.len()).filter(taken).flat_map(|i| components.face_numbers(i)).collect();
+    let rest = (0..parent.form.mesh.faces.len()).filter(|f| !taken.contains(f)).collect();
+    Ok((pieces, rest))
+}
+
+fn take_apart<'p>(
+    run: &mut Derivation<'p>,
+    component: Component,
+    keep_axes: bool,
+    selectors: &'p [Selector],
+    span: Span,
+    env: &Env,
+) -> Outcome<Apart<'p>> {
     let mut parent = env.shape.clone();
     parent.bake();
     let tests: Vec<Test> = selectors.iter().map(|s| Test { test: &s.test, text: &s.text }).collect();
-    let components = Components::of(&parent, component, keep_axes, wants_roof_edges(&tests));
+    let components = Components::of(&parent, component, keep_axes, Wanted::by(&tests));
     let owners = assign(run, &components, &parent, &tests, env)?;
-    let trims = components.trim_parent(&parent);
-    let mut out: Pieces<'p> = Vec::with_capacity(components.len());
+    let trims = if run.program.needs().trims { components.trim_parent(&parent) } else { None };
+    let mut pieces: Pieces<'p> = Vec::with_capacity(components.len());
     for (number, selector) in selectors.iter().enumerate() {
         let members: Vec<usize> = (0..owners.len()).filter(|&i| owners[i] == Some(number)).collect();
         let groups = grouped(&components, &parent, members, selector.operator);
@@ -62,13 +87,10 @@ pub fn pieces_and_rest<'p>(
                 components.add_trim_planes(trims, group[0], &mut shape);
             }
             (shape.comp, shape.comp_index) = (split.clone(), index as i32);
-            out.push((Box::new(shape), &selector.body));
+            pieces.push((shape, &selector.body));
         }
     }
-    let taken = |i: &usize| owners[*i].is_some();
-    let taken: BTreeSet<usize> = (0..owners.len()).filter(taken).flat_map(|i| components.face_numbers(i)).collect();
-    let rest = (0..parent.form.mesh.faces.len()).filter(|f| !taken.contains(f)).collect();
-    Ok((out, rest))
+    Ok(Apart { parent, components, owners, pieces })
 }
 
 fn grouped(components: &Components, parent: &Shape, members: Vec<usize>, operator: SelectorOperator) -> Vec<Group> {
@@ -142,18 +164,36 @@ fn holds<'p>(
 /// Kind of seed of a component that is only looked at.
 pub const COMPONENT: u64 = 4 << 40;
 
-/// Whether some selector asks for eaves, hips, valleys or ridges.
-fn wants_roof_edges(tests: &[Test]) -> bool {
-    use crate::cga::builtins::Word;
-    fn mentions(expr: &Expr) -> bool {
+/// What has to be found out about components for the selectors to choose among them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Wanted {
+    /// Eaves, hips, valleys and ridges.
+    pub roof_edges: bool,
+    /// Which components lie at the border.
+    pub borders: bool,
+}
+
+impl Wanted {
+    pub const BORDERS: Wanted = Wanted { roof_edges: false, borders: true };
+
+    fn by(tests: &[Test]) -> Wanted {
+        let none = Wanted { roof_edges: false, borders: false };
+        tests.iter().fold(none, |wanted, t| wanted.with(t.test))
+    }
+
+    fn with(self, expr: &Expr) -> Wanted {
         match &expr.kind {
-            ExprKind::Selector(word) => matches!(word, Word::Eave | Word::Hip | Word::Valley | Word::Ridge),
-            ExprKind::Unary(_, inner) => mentions(inner),
-            ExprKind::Binary(_, a, b) => mentions(a) || mentions(b),
-            _ => false,
+            ExprKind::Selector(Word::Eave | Word::Hip | Word::Valley | Word::Ridge) => {
+                Wanted { roof_edges: true, ..self }
+            }
+            ExprKind::Selector(Word::Border | Word::Inside) => Wanted { borders: true, ..self },
+            ExprKind::Selector(_) | ExprKind::Number(_) => self,
+            ExprKind::Unary(_, inner) => self.with(inner),
+            ExprKind::Binary(_, a, b) => self.with(a).with(b),
+            // Any other expression may ask about the component it is evaluated on.
+            _ => Wanted { borders: true, ..self },
         }
     }
-    tests.iter().any(|t| mentions(t.test))
 }
 
 /// The comp function: one entry per component in index order; with `=` the value of a group goes to all its members;
@@ -169,7 +209,7 @@ pub fn values<'p>(
     let mut parent = env.shape.clone();
     parent.bake();
     let tests: Vec<Test> = selectors.iter().map(|s| Test { test: &s.test, text: &s.text }).collect();
-    let components = Components::of(&parent, component, keep_axes, wants_roof_edges(&tests));
+    let components = Components::of(&parent, component, keep_axes, Wanted::by(&tests));
     let owners = assign(run, &components, &parent, &tests, env)?;
     let mut values: Vec<Option<Value>> = vec![None; components.len()];
     for (number, selector) in selectors.iter().enumerate() {

@@ -7,6 +7,7 @@ use super::super::environment::{Facet, Place, RoofEdge};
 use super::super::form::Form;
 use super::super::shape::Shape;
 use super::super::topology::{Edge, Topology, edge_normal, used_vertices, vertex_normals};
+use super::comp::Wanted;
 use super::components::Part;
 use super::roof_edges;
 use crate::cga::program::Component;
@@ -34,22 +35,27 @@ fn face_part(mesh: &Mesh, face: &Face, normal: DVec3) -> Part {
     Part { facets: 0, ends: [0, 0], origin: corner(0), along: corner(1) - corner(0), normal }
 }
 
-fn face_facet(number: usize, normal: DVec3, topology: &Topology) -> Facet {
-    facet(Place::Face(number as u32), normal, topology.is_border_face(number))
+fn face_facet(number: usize, normal: DVec3, borders: Option<&Topology>) -> Facet {
+    facet(Place::Face(number as u32), normal, borders.is_some_and(|topology| topology.is_border_face(number)))
 }
 
-pub fn faces(mesh: &Mesh) -> List {
-    let topology = Topology::of(mesh);
+/// What tells border faces from others, where somebody asks.
+fn borders(mesh: &Mesh, wanted: Wanted) -> Option<Topology> {
+    wanted.borders.then(|| Topology::of(mesh))
+}
+
+pub fn faces(mesh: &Mesh, wanted: Wanted) -> List {
+    let borders = borders(mesh, wanted);
     let real = mesh.faces.iter().enumerate().filter(|(_, face)| !face.outer.is_empty());
     list(real.map(|(number, face)| {
         let normal = mesh.normal(face);
-        (face_part(mesh, face, normal), face_facet(number, normal, &topology))
+        (face_part(mesh, face, normal), face_facet(number, normal, borders.as_ref()))
     }))
 }
 
 /// Faces by a number each has (a group, a material), sets in the order of their first faces.
-pub fn sets(mesh: &Mesh, set: impl Fn(usize) -> u16) -> List {
-    let topology = Topology::of(mesh);
+pub fn sets(mesh: &Mesh, wanted: Wanted, set: impl Fn(usize) -> u16) -> List {
+    let borders = borders(mesh, wanted);
     let mut members: Vec<(u16, Vec<usize>)> = Vec::new();
     for (number, _) in mesh.faces.iter().enumerate().filter(|(_, face)| !face.outer.is_empty()) {
         let own = set(number);
@@ -62,13 +68,13 @@ pub fn sets(mesh: &Mesh, set: impl Fn(usize) -> u16) -> List {
     for (_, list) in members {
         let first = &mesh.faces[list[0]];
         out.0.push(Part { facets: out.1.len() as u32, ..face_part(mesh, first, mesh.normal(first)) });
-        out.1.extend(list.into_iter().map(|f| face_facet(f, mesh.normal(&mesh.faces[f]), &topology)));
+        out.1.extend(list.into_iter().map(|f| face_facet(f, mesh.normal(&mesh.faces[f]), borders.as_ref())));
     }
     out
 }
 
-pub fn holes(mesh: &Mesh) -> List {
-    let topology = Topology::of(mesh);
+pub fn holes(mesh: &Mesh, wanted: Wanted) -> List {
+    let borders = borders(mesh, wanted);
     let mut found = Vec::new();
     for (number, face) in mesh.faces.iter().enumerate() {
         let normal = mesh.normal(face);
@@ -76,7 +82,7 @@ pub fn holes(mesh: &Mesh) -> List {
             let [a, b] = [ring[0], ring[1]].map(|v| mesh.positions[v as usize]);
             let ends = [number as u32, hole as u32];
             let part = Part { facets: 0, ends, origin: a, along: b - a, normal };
-            found.push((part, face_facet(number, normal, &topology)));
+            found.push((part, face_facet(number, normal, borders.as_ref())));
         }
     }
     list(found.into_iter())

@@ -13,6 +13,7 @@ use super::super::form::Form;
 use super::super::placement::{Frame, perpendicular};
 use super::super::shape::{Scope, Shape};
 use super::super::trim_planes::{TrimParent, TrimSource};
+use super::comp::Wanted;
 use super::component_list as list;
 use crate::cga::program::Component;
 use crate::geometry::transform::flip_face;
@@ -44,20 +45,20 @@ pub struct Part {
 
 impl Components {
     /// All components in index order (reference 3.4).
-    pub fn of(shape: &Shape, kind: Component, keep_axes: bool, roof_edges: bool) -> Components {
+    pub fn of(shape: &Shape, kind: Component, keep_axes: bool, wanted: Wanted) -> Components {
         let form = &*shape.form;
         let bare = form.mesh.faces.is_empty();
         let (parts, facets) = match kind {
-            Component::Faces => list::faces(&form.mesh),
+            Component::Faces => list::faces(&form.mesh, wanted),
             Component::Edges | Component::FaceEdges if bare => list::bare_edges(form),
             Component::Vertices | Component::FaceVertices if bare => list::bare_vertices(form, kind),
-            Component::Edges => list::edges(shape, roof_edges),
+            Component::Edges => list::edges(shape, wanted.roof_edges),
             Component::FaceEdges => list::face_edges(&form.mesh),
             Component::Vertices => list::vertices(&form.mesh),
             Component::FaceVertices => list::face_vertices(&form.mesh),
-            Component::Groups => list::sets(&form.mesh, |f| form.group(f)),
-            Component::Materials => list::sets(&form.mesh, |f| form.face_material(f)),
-            Component::Holes => list::holes(&form.mesh),
+            Component::Groups => list::sets(&form.mesh, wanted, |f| form.group(f)),
+            Component::Materials => list::sets(&form.mesh, wanted, |f| form.face_material(f)),
+            Component::Holes => list::holes(&form.mesh, wanted),
         };
         Components { kind, keep_axes, parts, facets }
     }
@@ -87,18 +88,15 @@ impl Components {
     }
 
     /// The shape of some components: the frame of the first, fitted to all. `group` is not empty.
-    pub fn shape(&self, parent: &Shape, group: &[usize]) -> Shape {
+    pub fn shape(&self, parent: &Shape, group: &[usize]) -> Box<Shape> {
         let form = self.form(parent, group);
-        let mut shape = parent.clone();
         // Groups and materials stay in the parent's frame.
-        if !self.keep_axes && !matches!(self.kind, Component::Groups | Component::Materials) {
-            let frame = self.frame(&self.parts[group[0]], parent.scope.frame.axes);
-            shape.pivot = frame;
-            shape.scope = Scope { frame, size: DVec3::ZERO };
-        }
-        shape.scope = Scope::around(&form.mesh.positions, shape.scope.frame.axes).unwrap_or(shape.scope);
-        shape.binding = shape.scope;
-        shape.form = Arc::new(form);
+        let stays = self.keep_axes || matches!(self.kind, Component::Groups | Component::Materials);
+        let frame = (!stays).then(|| self.frame(&self.parts[group[0]], parent.scope.frame.axes));
+        let empty = frame.map_or(parent.scope, |frame| Scope { frame, size: DVec3::ZERO });
+        let scope = Scope::around(&form.mesh.positions, empty.frame.axes).unwrap_or(empty);
+        let mut shape = parent.piece(form, scope);
+        shape.pivot = frame.unwrap_or(parent.pivot);
         shape
     }
 

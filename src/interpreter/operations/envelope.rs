@@ -10,6 +10,7 @@ use super::super::expression::facet_matches;
 use super::super::shape::Shape;
 use super::super::value::Value;
 use super::args::Args;
+use super::comp::Wanted;
 use super::components::Components;
 use super::extrude::replace_upright;
 use crate::cga::builtins::Word;
@@ -62,7 +63,7 @@ pub fn apply(run: &mut Derivation, args: &Args, shape: &mut Shape) {
 /// Wall and slope per face edge. Edges of no class, and those beyond the end of an array, are upright.
 fn limits(run: &mut Derivation, args: &Args, shape: &Shape) -> Vec<Limit> {
     let first = usize::from(args.word(0).is_some()) + 1;
-    let components = Components::of(shape, Component::FaceEdges, false, false);
+    let components = Components::of(shape, Component::FaceEdges, false, Wanted::BORDERS);
     let mut out = Vec::with_capacity(components.len());
     let sides: &[Word] = match args.len() - first {
         8 => &[Word::StreetFront, Word::StreetBack, Word::StreetRight, Word::StreetLeft],

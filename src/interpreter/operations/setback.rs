@@ -7,6 +7,7 @@ use super::super::limits::Outcome;
 use super::super::shape::{CompSplit, Shape};
 use super::super::value::Value;
 use super::args::Args;
+use super::comp::Wanted;
 use super::comp::{COMPONENT, Test, assign};
 use super::components::Components;
 use super::regions::{Regions, named};
@@ -76,7 +77,7 @@ pub fn face_edges(
     parent: &Shape,
     selectors: &[Selector],
 ) -> Components {
-    let mut components = Components::of(parent, Component::FaceEdges, false, false);
+    let mut components = Components::of(parent, Component::FaceEdges, false, Wanted::BORDERS);
     if selectors.iter().any(|s| setback_uv::mentioned(&s.test)) {
         let set = if args.value(uv_set).is_some() { args.uv_set(run, uv_set) } else { Some(0) };
         if let Some(set) = set

@@ -5,6 +5,7 @@ use super::super::derivation::Derivation;
 use super::super::orientation;
 use super::super::shape::Shape;
 use super::args::Args;
+use super::comp::Wanted;
 use super::components::Components;
 use super::regions::{Regions, named};
 use super::setback::cut;
@@ -26,7 +27,7 @@ pub fn regions(
     };
     let depths: Vec<f64> = (0..sides.len()).map(|i| args.float_or(run, i, 0.0).max(0.0)).collect();
     let shape = named(selectors, Word::Shape);
-    let components = Components::of(parent, Component::FaceEdges, false, false);
+    let components = Components::of(parent, Component::FaceEdges, false, Wanted::BORDERS);
     let mut owners = Vec::with_capacity(components.len());
     let mut distances = Vec::with_capacity(components.len());
     for i in 0..components.len() {

@@ -1,8 +1,6 @@
 //! `split(x | y | z)` (reference 4.3). In: a block of sizes. Out: pieces between parallel planes, closed meshes closed
 //! again, with the scopes they get.
 
-use std::sync::Arc;
-
 use glam::DVec3;
 
 use super::super::derivation::Derivation;
@@ -119,8 +117,7 @@ fn cut_edges(form: &Form, normal: DVec3, boundaries: &[f64], pieces: usize) -> V
 }
 
 /// The shape of a slab: fitted to its geometry, or (`noAdjust`) the slab of the parent's box. Signs of sizes stay.
-pub fn piece(parent: &Shape, axis: usize, (start, end): (f64, f64), form: Form, adjust: bool) -> Shape {
-    let mut shape = parent.clone();
+pub fn piece(parent: &Shape, axis: usize, (start, end): (f64, f64), form: Form, adjust: bool) -> Box<Shape> {
     let mut scope = parent.scope;
     let sign = parent.scope.size[axis].signum();
     scope.frame.origin += scope.frame.axes.col(axis) * (start * sign);
@@ -129,10 +126,7 @@ pub fn piece(parent: &Shape, axis: usize, (start, end): (f64, f64), form: Form, 
         scope =
             Scope::around(&form.mesh.positions, scope.frame.axes).map_or(scope, |fit| signed(fit, parent.scope.size));
     }
-    shape.scope = scope;
-    shape.binding = scope;
-    shape.form = Arc::new(form);
-    shape
+    parent.piece(form, scope)
 }
 
 /// The same box with the signs of other sizes.

@@ -82,11 +82,11 @@ fn evaluate<'p>(
 
 impl<'p> Layout<'p> {
     /// The pieces of the slabs that hold geometry (all, if the parent holds none), numbered in order.
-    pub fn pieces(&self, forms: Vec<Form>, parent: &Shape, piece: impl Fn(usize, Form) -> Shape) -> Pieces<'p> {
+    pub fn pieces(&self, forms: Vec<Form>, parent: &Shape, piece: impl Fn(usize, Form) -> Box<Shape>) -> Pieces<'p> {
         let mut pieces: Pieces<'p> = Vec::with_capacity(self.slabs.len());
         for (i, (slab, form)) in self.slabs.iter().zip(forms).enumerate() {
             if !form.is_empty() || parent.form.is_empty() {
-                pieces.push((Box::new(piece(i, form)), self.bodies[slab.body]));
+                pieces.push((piece(i, form), self.bodies[slab.body]));
             }
         }
         let total = pieces.len() as u32;

@@ -64,7 +64,7 @@ pub fn along_texture<'p>(
         if form.mesh.faces.is_empty() { Form::default() } else { form }
     });
     Ok(layout.pieces(forms.collect(), &parent, |_, form| {
-        let mut shape = parent.clone();
+        let mut shape = Box::new(parent.clone());
         shape.replace(form);
         shape
     }))
