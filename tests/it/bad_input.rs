@@ -51,7 +51,7 @@ fn a_missing_recipe() {
 #[test]
 fn five_mistakes_are_five_diagnostics() {
     let shop = Workshop::new();
-    let rules = "version \"2025.1\"\nattr h = 3\nLot --> extrud(h) A\nA --> color(\"#ff0000\", 1, 2, 3, 4, 5) B\n\
+    let rules = "version \"2025.1\"\nattr h = 3\nLot --> extrude(sqroot(h)) A\nA --> color(\"#ff0000\", 1, 2, 3, 4, 5) B\n\
                  B --> s(1, 2) C.\nC2 --> extrude(heigth) D.\nE --> comp(f) { tpo : F. }\n";
     shop.write("r.cga", rules);
     let run = shop.run(&["check", "r.cga", "--format", "json"]).expect(1);

@@ -108,9 +108,10 @@ impl Body<'_, '_> {
         }
         let operation = self.tables.meant(&name.text, Operation::ALL.iter().map(|o| o.name()));
         if let Some(near) = operation.filter(|_| !args.is_empty()) {
-            let message = format!("there is no operation or rule `{}`", name.text);
-            let error = Diagnostic::error(codes::UNKNOWN_OPERATION, name.span, message);
-            self.diagnostics.push(error.help(format!("did you mean `{near}`?")));
+            let message = format!("no operation or rule `{}`; it becomes a leaf", name.text);
+            let warning = Diagnostic::warning(codes::UNKNOWN_OPERATION, name.span, message);
+            let leaf = format!("{}(…).", name.text);
+            self.diagnostics.push(warning.help(format!("did you mean `{near}`? For a leaf write `{leaf}`")));
             return;
         }
         let own = self.tables.instances[self.scope].rules.keys().map(|k| &**k);

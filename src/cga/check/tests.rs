@@ -113,7 +113,7 @@ fn names_are_checked() {
     use crate::cga::codes as c;
     error("attr h = heigt attr height = 1", c::UNKNOWN_NAME, "heigt");
     error("attr h = sqroot(2)", c::UNKNOWN_NAME, "sqroot");
-    error("A --> extrud(3) B.", c::UNKNOWN_OPERATION, "extrud");
+    warning("A --> extrud(3) B.", c::UNKNOWN_OPERATION, "extrud");
     warning("A --> Wall", c::UNDEFINED_RULE, "Wall");
     warning("A --> A(1)", c::UNDEFINED_RULE, "A");
     error("A --> comp(f) { tob : B. }", c::UNKNOWN_SELECTOR, "tob");

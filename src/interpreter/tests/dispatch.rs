@@ -44,3 +44,11 @@ fn every_operation_without_a_block_is_evaluated() {
         }
     }
 }
+
+/// Unknown words in the place of an operation are shape symbols (reference 9, 2.11): a warning and a leaf.
+#[test]
+fn a_misspelt_operation_is_a_leaf() {
+    let tree = derived("Lot --> extrud(3) Mass.", ground(SMALL));
+    let leaves: Vec<(&str, usize)> = tree.leaves.iter().map(|l| (&*l.rule, l.mesh.faces.len())).collect();
+    assert_eq!(leaves, [("extrud", 1), ("Mass", 1)]);
+}

@@ -2,9 +2,12 @@
 //! closed body up to a greatest height, in a local frame where the polygon lies at height 0: plan (x, y) becomes
 //! (x, height, -y).
 //!
-//! Going up, the outline of the body is a wavefront whose edges begin to move where their walls end, at the cotangent of
-//! their slope. Between two such heights it is a weighted straight skeleton (numerics section 5); the faces one edge
-//! sweeps in all of them are joined.
+//! Over a strictly convex polygon the body is the prism behind all slopes ([`convex`]). Over any other it goes up with
+//! its outline: that is a wavefront whose edges begin to move where their walls end, at the cotangent of their slope. Between
+//! two such heights it is a weighted straight skeleton (numerics section 5); the faces one edge sweeps in all of them
+//! are joined. An edge that the others have passed before its wall ends does not come back.
+
+mod convex;
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -67,6 +70,9 @@ pub fn envelope(polygon: &Polygon, limits: &[Limit], height: f64) -> Result<Enve
     if !(height.is_finite() && height >= SAME) {
         return Err(EnvelopeError::NoRoom(height));
     }
+    if convex::is_strictly_convex(polygon) {
+        return convex::over(polygon, limits, height).ok_or(EnvelopeError::NoRoom(height));
+    }
     let mut breaks: Vec<f64> = limits.iter().filter(|l| l.angle < 90.0).map(|l| l.base).collect();
     breaks.extend([0.0, height]);
     breaks.retain(|&z| (0.0..=height).contains(&z));
@@ -75,19 +81,9 @@ pub fn envelope(polygon: &Polygon, limits: &[Limit], height: f64) -> Result<Enve
     if let Some(last) = breaks.last_mut() {
         *last = height;
     }
-    let mut edges = 0;
-    let ring = |points: &Vec<DVec2>| {
-        edges += points.len();
-        Ring { points: points.clone(), edges: (edges - points.len()..edges).collect() }
-    };
-    let mut outlines = vec![polygon.rings().map(ring).collect::<Vec<Ring>>()];
+    let mut outlines = vec![outline_of(polygon)];
     let mut body = Body::default();
-    let turned = |ring: &Vec<DVec2>| {
-        let mut ring: Vec<(DVec2, f64)> = ring.iter().map(|&p| (p, 0.0)).collect();
-        flip_loop(&mut ring);
-        ring
-    };
-    body.add(Part::Bottom, polygon.rings().map(turned).collect());
+    body.bottom(polygon);
     for step in breaks.windows(2) {
         let (from, to) = (step[0], step[1]);
         let speed = |edge: usize| match limits.get(edge) {
@@ -105,9 +101,7 @@ pub fn envelope(polygon: &Polygon, limits: &[Limit], height: f64) -> Result<Enve
         }
         outlines = next;
     }
-    for outline in &outlines {
-        body.add(Part::Top, outline.iter().map(|ring| ring.points.iter().map(|&p| (p, height)).collect()).collect());
-    }
+    outlines.iter().for_each(|outline| body.top(outline, height));
     Ok(body.finish())
 }
 
@@ -116,6 +110,15 @@ pub fn envelope(polygon: &Polygon, limits: &[Limit], height: f64) -> Result<Enve
 struct Ring {
     points: Vec<DVec2>,
     edges: Vec<usize>,
+}
+
+fn outline_of(polygon: &Polygon) -> Vec<Ring> {
+    let mut edges = 0;
+    let ring = |points: &Vec<DVec2>| {
+        edges += points.len();
+        Ring { points: points.clone(), edges: (edges - points.len()..edges).collect() }
+    };
+    polygon.rings().map(ring).collect()
 }
 
 /// Faces so far, as loops of vertices.
@@ -149,6 +152,19 @@ impl Body {
                 self.parts.entry(part).or_default().push(ring);
             }
         }
+    }
+
+    fn bottom(&mut self, polygon: &Polygon) {
+        let turned = |ring: &Vec<DVec2>| {
+            let mut ring: Vec<(DVec2, f64)> = ring.iter().map(|&p| (p, 0.0)).collect();
+            flip_loop(&mut ring);
+            ring
+        };
+        self.add(Part::Bottom, polygon.rings().map(turned).collect());
+    }
+
+    fn top(&mut self, outline: &[Ring], height: f64) {
+        self.add(Part::Top, outline.iter().map(|ring| ring.points.iter().map(|&p| (p, height)).collect()).collect());
     }
 
     fn upright(&mut self, outline: &[Ring], from: f64, to: f64) {
@@ -313,118 +329,4 @@ fn trace(positions: &[DVec3], left: &mut Vec<(u32, u32)>, normal: DVec3) -> Opti
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::geometry::mesh_checks::{is_closed, volume};
-    use crate::geometry::{Plane, cut, extrude};
-    use proptest::prelude::*;
-
-    fn polygon(points: &[(f64, f64)]) -> Polygon {
-        Polygon { outer: points.iter().map(|&(x, y)| DVec2::new(x, y)).collect(), holes: Vec::new() }
-    }
-
-    fn limits(list: &[(f64, f64)]) -> Vec<Limit> {
-        list.iter().map(|&(base, angle)| Limit { base, angle }).collect()
-    }
-
-    #[track_caller]
-    fn checked(polygon: &Polygon, limits: &[Limit], height: f64) -> Envelope {
-        let found = envelope(polygon, limits, height).expect("an envelope");
-        assert!(is_closed(&found.mesh), "{limits:?} {height}: {found:?}");
-        found
-    }
-
-    const SMALL: &[(f64, f64)] = &[(0.0, 0.0), (10.0, 0.0), (10.0, 6.0), (0.0, 6.0)];
-
-    #[test]
-    fn upright_walls_make_a_prism() {
-        let found = checked(&polygon(SMALL), &[], 4.0);
-        assert_eq!(found.parts.len(), 6);
-        assert!((volume(&found.mesh) - 240.0).abs() < 1e-9);
-    }
-
-    #[test]
-    fn one_slope_cuts_a_wedge() {
-        // From 4 m up at 45 degrees, sealed at 7 m: a wedge of 3 x 3 / 2 x 10 is missing.
-        let found = checked(&polygon(SMALL), &limits(&[(4.0, 45.0)]), 7.0);
-        assert!((volume(&found.mesh) - (420.0 - 45.0)).abs() < 1e-9, "{}", volume(&found.mesh));
-        let sides = |edge| [Part::Side { edge, slope: false }, Part::Side { edge, slope: true }];
-        assert!(sides(0).iter().all(|p| found.parts.contains(p)) && !found.parts.contains(&sides(1)[1]));
-        assert_eq!((found.parts[0], found.parts[found.parts.len() - 1]), (Part::Bottom, Part::Top));
-        assert_eq!(found.parts.len(), 7);
-    }
-
-    #[test]
-    fn slopes_may_close_below_the_top() {
-        let found = checked(&polygon(SMALL), &limits(&[(1.0, 45.0); 4]), 100.0);
-        assert!(!found.parts.contains(&Part::Top));
-        // A hip roof of height 3 on 1 m of wall: 6 x 4 x 3 / 2 + 6 x 6 x 3 / 3.
-        assert!((volume(&found.mesh) - (60.0 + 36.0 + 36.0)).abs() < 1e-9, "{}", volume(&found.mesh));
-    }
-
-    #[test]
-    fn level_slopes_end_the_body() {
-        let found = checked(&polygon(SMALL), &limits(&[(2.0, 0.0)]), 9.0);
-        assert!((volume(&found.mesh) - 120.0).abs() < 1e-9);
-        assert!(envelope(&polygon(SMALL), &[], 0.0).is_err());
-    }
-
-    #[test]
-    fn courtyards_stay_open() {
-        let mut ring = polygon(SMALL);
-        ring.holes.push([(4.0, 2.0), (4.0, 4.0), (6.0, 4.0), (6.0, 2.0)].map(|(x, y)| DVec2::new(x, y)).to_vec());
-        let found = checked(&ring, &limits(&[(3.0, 60.0), (2.0, 60.0), (3.0, 60.0), (1.0, 60.0)]), 5.0);
-        let inner = |p: &&Part| matches!(p, Part::Side { edge: 4.., slope: false });
-        assert_eq!(found.parts.iter().filter(inner).count(), 4);
-        assert!(volume(&found.mesh) < 56.0 * 5.0);
-    }
-
-    /// The prism cut by the planes one by one: right for convex polygons.
-    fn by_planes(polygon: &Polygon, limits: &[Limit], height: f64) -> f64 {
-        let mut flat = Mesh::default();
-        crate::geometry::PlaneFrame::PLAN.push_face(&mut flat, polygon, 0.0);
-        let mut mesh = extrude::extrude(&flat, extrude::Direction::FaceNormal, height).expect("a prism").mesh;
-        for (i, limit) in limits.iter().enumerate() {
-            let (a, b) = (polygon.outer[i], polygon.outer[(i + 1) % polygon.outer.len()]);
-            let outward = -(b - a).perp().normalize();
-            let (sin, cos) = libm::sincos(limit.angle.to_radians());
-            let normal = DVec3::new(outward.x * sin, cos, -outward.y * sin);
-            let plane = Plane::through(DVec3::new(a.x, limit.base, -a.y), normal).expect("a direction");
-            mesh = cut::cut(&mesh, &plane).behind.mesh;
-        }
-        volume(&mesh)
-    }
-
-    proptest! {
-        #![proptest_config(ProptestConfig::with_cases(64))]
-
-        #[test]
-        fn convex_envelopes_are_cut_prisms(n in 3usize..7, sizes in prop::collection::vec((0.0..6.0f64, 20.0..90.0f64), 7), height in 1.0..12.0f64) {
-            let corner = |i: usize| {
-                let (sin, cos) = libm::sincos(std::f64::consts::TAU * (i as f64 + 0.3 * sizes[i].0 / 6.0) / n as f64);
-                DVec2::new(9.0 * cos, 9.0 * sin)
-            };
-            let polygon = Polygon { outer: (0..n).map(corner).collect(), holes: Vec::new() };
-            let limits = limits(&sizes[..n]);
-            let found = envelope(&polygon, &limits, height).expect("an envelope");
-            prop_assert!(is_closed(&found.mesh));
-            let expected = by_planes(&polygon, &limits, height);
-            prop_assert!((volume(&found.mesh) - expected).abs() < 1e-6 * expected, "{} {expected}", volume(&found.mesh));
-        }
-
-        #[test]
-        fn concave_envelopes_are_closed_and_small(radii in prop::collection::vec(2.0..9.0f64, 4..9), sizes in prop::collection::vec((0.0..5.0f64, 15.0..110.0f64), 9), height in 0.5..15.0f64) {
-            let n = radii.len() as f64;
-            let corner = |(i, r): (usize, &f64)| {
-                let (sin, cos) = libm::sincos(std::f64::consts::TAU * i as f64 / n);
-                DVec2::new(r * cos, r * sin)
-            };
-            let star = Polygon { outer: radii.iter().enumerate().map(corner).collect(), holes: Vec::new() };
-            let found = envelope(&star, &limits(&sizes[..radii.len()]), height).expect("an envelope");
-            prop_assert!(is_closed(&found.mesh), "{found:?}");
-            let v = volume(&found.mesh);
-            prop_assert!(v > 0.0 && v <= star.area() * height * (1.0 + 1e-9), "{v}");
-            prop_assert!(found.mesh.positions.iter().all(|p| p.y >= 0.0 && p.y <= height));
-        }
-    }
-}
+mod tests;
