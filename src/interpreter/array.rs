@@ -78,7 +78,8 @@ pub fn range<'p>(
     Ok(Value::floats((0..=count as u64).map(|i| first + i as f64 * step).collect()))
 }
 
-fn check_size(run: &mut Derivation, size: usize, span: Span) -> Outcome<()> {
+/// Refuses arrays beyond the limit.
+pub fn check_size(run: &mut Derivation, size: usize, span: Span) -> Outcome<()> {
     if size <= run.limits.max_array {
         return Ok(());
     }

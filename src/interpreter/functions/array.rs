@@ -3,8 +3,9 @@
 use std::cmp::Ordering;
 use std::sync::Arc;
 
+use super::super::array::check_size;
 use super::super::derivation::Derivation;
-use super::super::limits::{Outcome, Stop};
+use super::super::limits::Outcome;
 use super::super::value::{Array, Value};
 use super::Input;
 use crate::cga::builtins::Function as F;
@@ -128,7 +129,7 @@ fn changed<T: Clone>(
     if input.len() == 4 {
         if let (Some(r), Some(c), Some(v)) = (valid(input.float(1)), valid(input.float(2)), value(0)) {
             let (rows, columns) = (out.rows.max(r + 1), out.columns.max(c + 1));
-            refuse_large(run, rows.saturating_mul(columns), input)?;
+            check_size(run, rows.saturating_mul(columns), input.span)?;
             grow(&mut out, rows, columns, &default);
             out.items[r * columns + c] = v;
         }
@@ -137,7 +138,7 @@ fn changed<T: Clone>(
     for (k, &index) in input.any(1).to_floats().items.iter().enumerate() {
         let (Some(i), Some(v)) = (valid(index), value(k)) else { continue };
         if i >= out.items.len() {
-            refuse_large(run, i.saturating_add(1), input)?;
+            check_size(run, i.saturating_add(1), input.span)?;
             if out.rows <= 1 {
                 grow(&mut out, 1, i + 1, &default);
             } else {
@@ -148,15 +149,6 @@ fn changed<T: Clone>(
         out.items[i] = v;
     }
     Ok(out)
-}
-
-fn refuse_large(run: &mut Derivation, size: usize, input: &Input) -> Outcome<()> {
-    let limit = run.limits.max_array;
-    if size <= limit {
-        return Ok(());
-    }
-    run.error("cga::limit-array", input.span, format!("an array of {size} elements passes the limit of {limit}"));
-    Err(Stop)
 }
 
 fn grow<T: Clone>(array: &mut Array<T>, rows: usize, columns: usize, default: &T) {

@@ -13,6 +13,7 @@ mod geometry;
 mod list;
 mod math;
 mod place;
+mod split_string;
 mod tags;
 mod text;
 
@@ -94,7 +95,7 @@ pub fn call(
             value
         }
         F::ListRandom => list::random(&input, env.draw(site)),
-        F::SplitString => text::split(run, &input),
+        F::SplitString => split_string::split(run, &input)?,
         F::Replace => text::replace(run, &input)?,
         F::SetElems => array::set_elems(run, &input)?,
         F::GetGeoCoord => place::geo_coordinate(run, &input, env.shape),

@@ -17,6 +17,7 @@ pub fn call(function: F, input: &Input, env: &Env) -> Option<Value> {
         F::IsTagged => Value::Bool(is_tagged(input, env)),
         F::GeometryTags => Value::strings(form.tag_names(&query(input), levels(input)).into_iter().collect()),
         F::GeometryHasTags => Value::Bool(!form.tag_names(&query(input), levels(input)).is_empty()),
+        F::GeometryGroups if form.mesh.faces.is_empty() => Value::strings(form.bare_groups().to_vec()),
         F::GeometryGroups => names(form, |f| form.group(f), |group| form.group_name(group)),
         F::GeometryMaterials => names(form, |f| form.face_material(f), |m| material_name(form, m)),
         _ => return None,

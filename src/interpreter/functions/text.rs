@@ -63,26 +63,6 @@ fn file_name(path: &str) -> &str {
     path.rfind('/').map_or(path, |i| &path[i + 1..])
 }
 
-/// Largest compiled expression, bytes.
-const LARGEST_EXPRESSION: usize = 1 << 20;
-
-/// `splitString(text, delimiter)`: empty parts are kept. A delimiter that starts with `$` is a regular expression;
-/// matching takes linear time, so looking around and back references are refused.
-pub fn split(run: &mut Derivation, input: &Input) -> Value {
-    let (text, delimiter) = (input.text(0), input.text(1));
-    let Some(expression) = delimiter.strip_prefix('$').filter(|e| !e.is_empty()) else {
-        return Value::strings(text.split(&*delimiter).map(Into::into).collect());
-    };
-    match regex::RegexBuilder::new(expression).size_limit(LARGEST_EXPRESSION).build() {
-        Ok(expression) => Value::strings(expression.split(&text).map(Into::into).collect()),
-        Err(error) => {
-            let why = error.to_string().lines().last().unwrap_or_default().trim_start_matches("error: ").to_owned();
-            run.error("cga::regular-expression", input.span, format!("not a regular expression that runs here: {why}"));
-            Value::strings(vec![text])
-        }
-    }
-}
-
 /// `replace(text, old, new)`: all occurrences.
 pub fn replace(run: &mut Derivation, input: &Input) -> Outcome<Value> {
     let (text, old, new) = (input.text(0), input.text(1), input.text(2));

@@ -19,7 +19,8 @@ use crate::geometry::Mesh;
 /// Groups and tags of one form.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Labels {
-    /// Index into `group_names` plus one per face, 0 for none; empty where no face has a group.
+    /// Index into `group_names` plus one per face, 0 for none; empty where no face has a group. The points of `scatter`
+    /// have no faces and are of the only group named.
     pub face_groups: Vec<u16>,
     pub group_names: Arc<[Arc<str>]>,
     pub tags: Tags,
@@ -56,6 +57,12 @@ impl Form {
     /// The group of a face: 0 for none, else the place in the list of names plus one.
     pub fn group(&self, face: usize) -> u16 {
         self.labels.as_ref().map_or(0, |labels| labels.group(face))
+    }
+
+    /// The groups of a form without faces.
+    pub fn bare_groups(&self) -> &[Arc<str>] {
+        let names = self.labels.as_ref().map(|labels| &labels.group_names[..]).unwrap_or_default();
+        if self.mesh.faces.is_empty() && !self.is_empty() { names } else { &[] }
     }
 
     pub fn group_name(&self, group: u16) -> Arc<str> {

@@ -181,6 +181,14 @@ pub fn bare_edges(form: &Form) -> List {
     }))
 }
 
+/// The group of a form without faces, if it has one.
+pub fn bare_group(form: &Form) -> List {
+    let (mut parts, mut facets) = bare_vertices(form, Component::Vertices);
+    parts.truncate(form.bare_groups().len().min(1));
+    facets.truncate(parts.len());
+    (parts, facets)
+}
+
 /// The vertices of edge geometry, or points: once each, or (`fv`) both ends of every edge, x along it.
 pub fn bare_vertices(form: &Form, kind: Component) -> List {
     let positions = &form.mesh.positions;

@@ -56,6 +56,7 @@ impl Components {
             Component::FaceEdges => list::face_edges(&form.mesh),
             Component::Vertices => list::vertices(&form.mesh),
             Component::FaceVertices => list::face_vertices(&form.mesh),
+            Component::Groups if form.mesh.faces.is_empty() => list::bare_group(form),
             Component::Groups => list::sets(&form.mesh, wanted, |f| form.group(f)),
             Component::Materials => list::sets(&form.mesh, wanted, |f| form.face_material(f)),
             Component::Holes => list::holes(&form.mesh, wanted),
@@ -116,6 +117,7 @@ impl Components {
 
     fn form(&self, parent: &Shape, group: &[usize]) -> Form {
         match self.kind {
+            Component::Groups if parent.form.mesh.faces.is_empty() => (*parent.form).clone(),
             Component::Faces | Component::Groups | Component::Materials => {
                 let facets = group.iter().flat_map(|&i| self.facets(i));
                 let faces: Vec<usize> = facets.filter_map(face_of).collect();

@@ -11,6 +11,7 @@ use glam::{DMat3, DVec3};
 use super::super::derivation::Derivation;
 use super::super::environment::Env;
 use super::super::form::Form;
+use super::super::labels::Labels;
 use super::super::limits::Outcome;
 use super::super::placement::{Frame, perpendicular};
 use super::super::seed::Seed;
@@ -47,7 +48,9 @@ pub fn pieces<'p>(run: &mut Derivation<'p>, args: &Args, body: &'p Successor, en
             Some(bell) => domain.gaussian(bell, dice),
         }
     };
-    Ok((0..n as u64).map(|i| (Box::new(point_shape(&parent, place(i))), body)).collect())
+    let group: Arc<[Arc<str>]> = Arc::new(["builtin:point".into()]);
+    let labels = Labels { group_names: group, ..Labels::default() };
+    Ok((0..n as u64).map(|i| (Box::new(point_shape(&parent, &labels, place(i))), body)).collect())
 }
 
 /// A point and, on a surface, its normal.
@@ -252,14 +255,14 @@ fn nearest_in_triangle(p: DVec3, &[a, b, c]: &[DVec3; 3]) -> DVec3 {
     a + ab * (vb / sum) + ac * (vc / sum)
 }
 
-/// A single vertex in a scope of size 0; on a surface y is the normal and x as near to the old x as can be.
-fn point_shape(parent: &Shape, (position, normal): Place) -> Shape {
+/// A single vertex of group `builtin:point` in a scope of size 0; on a surface y is the normal and x as near to the old x as can be.
+fn point_shape(parent: &Shape, labels: &Labels, (position, normal): Place) -> Shape {
     let old = parent.scope.frame.axes;
     let axes = normal.map_or(old, |y| {
         let x = perpendicular(y, old.x_axis, old.z_axis);
         DMat3::from_cols(x, y, x.cross(y))
     });
-    let mut form = Form::default();
+    let mut form = Form { labels: Some(Box::new(labels.clone())), ..Form::default() };
     form.mesh.positions.push(position);
     form.normals.push(normal.unwrap_or(old.y_axis));
     let mut shape = parent.clone();

@@ -23,8 +23,34 @@ fn regular_expressions_split() {
         (r#"splitString("/q/", "/")"#, "(3)[,q,]"),
         (r#"splitString("", ",")"#, "(1)[]"),
     ]);
-    let tree = derived(r#"Lot --> print(splitString("ab", "$(?<=a)")) NIL"#, ground(LOT));
-    assert_eq!(tree.diagnostics.iter().map(|d| d.code).collect::<Vec<_>>(), ["cga::regular-expression"]);
+}
+
+#[test]
+fn regular_expressions_look_around() {
+    check(&[
+        (r#"splitString("ab", "$(?<=a)")"#, "(2)[a,b]"),
+        (r#"splitString("WallWestUp", "$(?=[A-Z])")"#, "(4)[,Wall,West,Up]"),
+        (r#"splitString("a,b\\,c", "$(?<!\\\\),")"#, "(2)[a,b\\,c]"),
+        (r#"splitString("1--2-3", "$(-)\\1")"#, "(2)[1,2-3]"),
+        (r#"splitString("häß", "$(?!^)(?=.)")"#, "(3)[h,ä,ß]"),
+    ]);
+}
+
+/// Also what would never end: the text comes back whole.
+#[test]
+fn regular_expressions_are_bounded() {
+    let many = "x".repeat(60) + "zy";
+    let wide = "ab".repeat(20_000) + "c";
+    for (text, expression) in [(&*many, "(x+x+)+(?>y)"), (&*wide, "(?=.*c)"), ("ab", "(?<=a")] {
+        let tree =
+            derived(&format!("Lot --> print(len(splitString(\"{text}\", \"${expression}\")[0])) NIL"), ground(LOT));
+        assert_eq!(
+            tree.diagnostics.iter().map(|d| d.code).collect::<Vec<_>>(),
+            ["cga::regular-expression"],
+            "{expression}"
+        );
+        assert_eq!(tree.prints, [text.len().to_string()], "{expression}");
+    }
 }
 
 #[test]

@@ -99,3 +99,13 @@ fn what_cannot_be_scattered_is_told() {
     assert_eq!(codes("comp(e) { 0 : scatter(surface, 3, uniform) { A. } }"), (0, vec!["cga::scatter-empty"]));
     assert_eq!(codes("scatter(surface, 1e12, uniform) { A. }"), (0, vec!["cga::limit-shapes"]));
 }
+
+#[test]
+fn points_are_of_a_group_of_their_own() {
+    let tree = run("Lot --> scatter(surface, 2, uniform) { print(geometry.groups) comp(g) { all : A. } }", SMALL);
+    assert_eq!(
+        (&*tree.prints, count(&tree, "A")),
+        (&["(1)[builtin:point]".to_owned(), "(1)[builtin:point]".into()][..], 2)
+    );
+    assert!(tree.leaves.iter().all(|leaf| leaf.mesh.positions.len() == 1), "{:?}", tree.leaves);
+}
