@@ -77,6 +77,10 @@ fn a_derivation_writes_its_reports() {
     x,total,area.wall,float,4,108,27,24,30
     x,total,area.*,group,5,188,37.6,24,80
     ");
+    shop.write("town/rules/broken.cga", "Lot --> extrude(3, ) report(\"a\", )");
+    let broken = ["derive", "town/rules/broken.cga", "--footprint", FOOTPRINT, "--reports", "none.csv"];
+    shop.run(&broken).expect(1).says(&["cga::syntax"]);
+    assert!(!shop.path("none.csv").exists(), "rules that do not run report nothing");
     shop.run(&[&derive[..], &["--reports", "r.xls"]].concat()).expect(2).says(&["r.xls", ".csv or .json"]);
     let run = shop.run(&[&derive[..], &["--format", "obj"]].concat()).expect(0);
     assert!(run.stderr.contains("area.roof  float      1   80"), "{}", run.stderr);

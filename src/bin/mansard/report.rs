@@ -73,7 +73,8 @@ pub fn print(diagnostics: &Diagnostics, sources: &SourceMap, quiet: bool) {
     let errors = diagnostics.iter().filter(|d| d.severity == Severity::Error).count();
     let warnings = diagnostics.iter().count() - errors;
     if errors > 0 || (warnings > 0 && !quiet) {
-        eprintln!("{errors} errors, {warnings} warnings");
+        let plural = |n: usize| if n == 1 { "" } else { "s" };
+        eprintln!("{errors} error{}, {warnings} warning{}", plural(errors), plural(warnings));
     }
 }
 

@@ -256,9 +256,10 @@ pub fn summary(reports: &[Report]) -> String {
         reports.iter().flat_map(|r| &r.findings).filter(|f| f.verdict == verdict).map(|f| f.count).sum()
     };
     format!(
-        "{} files: {} as in CityEngine, {} with other results, {} that lack something, {} broken; places: \
+        "{} file{}: {} as in CityEngine, {} with other results, {} that lack something, {} broken; places: \
          {} changed, {} deprecated, {} missing, {} wrong",
         reports.len(),
+        if reports.len() == 1 { "" } else { "s" },
         of(Outcome::Runs),
         of(Outcome::Differs),
         of(Outcome::Lacks),
