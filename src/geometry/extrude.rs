@@ -2,6 +2,8 @@
 //!
 //! Words: *bottom* is the source face turned over, *top* its moved copy, *sides* stand on the source's border edges.
 
+mod prism;
+
 use std::collections::BTreeMap;
 
 use glam::{DVec2, DVec3};
@@ -68,11 +70,16 @@ pub fn extrude(mesh: &Mesh, direction: Direction, distance: f64) -> Option<Extru
     if !distance.is_finite() || distance.abs() <= LEAST_DISTANCE {
         return None;
     }
+    let out = prism::prism(mesh, direction, distance).unwrap_or_else(|| extrude_groups(mesh, direction, distance));
+    (!out.mesh.faces.is_empty()).then_some(out)
+}
+
+fn extrude_groups(mesh: &Mesh, direction: Direction, distance: f64) -> Extruded {
     let mut out = Extruded::default();
     for group in groups(mesh, direction) {
         extrude_group(mesh, &group, direction, distance, &mut out);
     }
-    (!out.mesh.faces.is_empty()).then_some(out)
+    out
 }
 
 /// Faces that move together, in order of their first face. Faces without area belong to none.

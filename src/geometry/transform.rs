@@ -40,6 +40,10 @@ pub fn flip_face(face: &mut Face) {
 
 /// As [`flip_face`] for a face that was mirrored: normals stay, each at its corner.
 pub fn turn_loops(face: &mut Face) {
+    if face.uvs.is_empty() && face.normals.is_empty() {
+        face.loops_mut().for_each(flip_loop);
+        return;
+    }
     let lengths: SmallVec<[usize; 4]> = face.loops().map(<[u32]>::len).collect();
     flip_loop(&mut face.outer);
     face.holes.iter_mut().for_each(|h| flip_loop(h));

@@ -31,7 +31,9 @@ pub fn read(run: &Derivation, attr: Attr, shape: &Shape) -> Value {
         Attr::PivotPosition(axis) => shape.pivot.relative_to(&run.object).origin[number(axis)],
         Attr::PivotOrientation(axis) => euler(&shape.pivot.relative_to(&run.object).axes)[number(axis)],
         Attr::InitialShapeName => return Value::String(run.start.name.clone()),
-        Attr::InitialShapeStartRule => return Value::String(run.start_rule.clone()),
+        Attr::InitialShapeStartRule => {
+            return run.start_rule.map_or_else(|| Value::text(""), |name| Value::String(name.clone()));
+        }
         Attr::InitialShapeOrigin(axis) => run.object.origin[number(axis)],
         Attr::InitialShapeOrientation(axis) => euler(&run.object.axes)[number(axis)],
         Attr::Seedian => shape.state.seedian.unwrap_or((shape.seed.bits() >> 33) as f64),

@@ -41,7 +41,7 @@ pub struct Derivation<'p> {
     /// Where the initial shape has streets, as the host or `streetWidth(edge)` says.
     pub streets: Option<Streets>,
     /// Name of the rule the initial shape was derived with.
-    pub start_rule: Arc<str>,
+    pub start_rule: Option<&'p Arc<str>>,
     /// What the derivation began with, before its attributes were known.
     pub initial: Option<Box<Shape>>,
     pub palette: Palette,
@@ -93,7 +93,7 @@ impl<'p> Derivation<'p> {
             outline: None,
             context: Context::default(),
             streets: None,
-            start_rule: "".into(),
+            start_rule: None,
             initial: None,
             palette: Palette::default(),
             leaves: Leaves::default(),

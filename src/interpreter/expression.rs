@@ -32,6 +32,7 @@ pub type EvaluatedArgs = SmallVec<[Evaluated; 6]>;
 
 impl<'p> Derivation<'p> {
     /// Evaluates an expression; only a met limit stops it.
+    #[inline]
     pub fn eval(&mut self, expr: &'p Expr, env: &Env) -> Outcome<Value> {
         if let Some(value) = simple(expr, env) {
             return Ok(value);
@@ -117,25 +118,29 @@ impl<'p> Derivation<'p> {
 
     pub fn eval_args(&mut self, args: &'p [Arg], env: &Env) -> Outcome<EvaluatedArgs> {
         let mut list = EvaluatedArgs::new();
-        for arg in args {
-            list.push(self.eval_arg(arg, env)?);
-        }
+        self.eval_args_into(args, env, &mut list)?;
         Ok(list)
     }
 
-    fn eval_arg(&mut self, arg: &'p Arg, env: &Env) -> Outcome<Evaluated> {
-        Ok(match arg {
-            Arg::Value(prefix, expr) => Evaluated::Value(*prefix, self.eval(expr, env)?),
-            Arg::Word(word, _) => Evaluated::Word(*word),
-            Arg::ComputedWord(expr) => {
-                let text = self.eval(expr, env)?.to_text();
-                let Some(word) = Word::from_text(&text) else {
-                    self.error("cga::unknown-selector", expr.span, format!("`{text}` is no selector"));
-                    return Err(Stop);
-                };
-                Evaluated::Word(word)
-            }
-        })
+    /// As [`Derivation::eval_args`], at the end of a list.
+    pub fn eval_args_into(&mut self, args: &'p [Arg], env: &Env, list: &mut EvaluatedArgs) -> Outcome<()> {
+        for arg in args {
+            list.push(match arg {
+                Arg::Value(prefix, expr) => Evaluated::Value(*prefix, self.eval(expr, env)?),
+                Arg::Word(word, _) => Evaluated::Word(*word),
+                Arg::ComputedWord(expr) => Evaluated::Word(self.eval_word(expr, env)?),
+            });
+        }
+        Ok(())
+    }
+
+    fn eval_word(&mut self, expr: &'p Expr, env: &Env) -> Outcome<Word> {
+        let text = self.eval(expr, env)?.to_text();
+        let Some(word) = Word::from_text(&text) else {
+            self.error("cga::unknown-selector", expr.span, format!("`{text}` is no selector"));
+            return Err(Stop);
+        };
+        Ok(word)
     }
 
     pub fn eval_bool(&mut self, expr: &'p Expr, env: &Env) -> Outcome<bool> {
@@ -198,6 +203,7 @@ fn uv_agrees(word: Word, facet: &Facet) -> bool {
 }
 
 /// Leaves of the expression tree, evaluated without bookkeeping.
+#[inline]
 fn simple(expr: &Expr, env: &Env) -> Option<Value> {
     Some(match &expr.kind {
         ExprKind::Number(x) => Value::Float(*x),

@@ -76,7 +76,8 @@ fn parts_by_material(form: Arc<Form>) -> Vec<(Option<usize>, Arc<Form>)> {
 #[derive(Default)]
 struct Names<'p> {
     last: Option<(&'p Arc<str>, Arc<str>)>,
-    known: BTreeMap<&'p str, Arc<str>>,
+    /// Sorted.
+    known: Vec<(&'p str, Arc<str>)>,
 }
 
 impl<'p> Names<'p> {
@@ -86,7 +87,14 @@ impl<'p> Names<'p> {
         {
             return own.clone();
         }
-        let own = self.known.entry(name).or_insert_with(|| Arc::from(&**name)).clone();
+        let own = match self.known.binary_search_by(|(known, _)| (*known).cmp(name)) {
+            Ok(place) => self.known[place].1.clone(),
+            Err(place) => {
+                let own: Arc<str> = Arc::from(&**name);
+                self.known.insert(place, (name, own.clone()));
+                own
+            }
+        };
         self.last = Some((name, own.clone()));
         own
     }
@@ -95,10 +103,11 @@ impl<'p> Names<'p> {
 /// Equal materials are one.
 #[derive(Default)]
 struct MaterialTable {
-    /// By address, those met last.
+    /// Those met last, by the address of what they come from.
     recent: Vec<(Arc<Appearance>, Arc<Material>)>,
+    /// The one to forget next.
     oldest: usize,
-    /// By the bits of colour and opacity.
+    /// Those forgotten, by the bits of colour and opacity.
     known: BTreeMap<[u64; 4], Vec<Arc<Material>>>,
 }
 
@@ -109,22 +118,30 @@ impl MaterialTable {
         if let Some((_, material)) = self.recent.iter().find(|(known, _)| Arc::ptr_eq(known, appearance)) {
             return material.clone();
         }
-        let material = appearance.material();
-        let [r, g, b] = material.color.map(f64::to_bits);
-        let same_color = self.known.entry([r, g, b, material.opacity.to_bits()]).or_default();
-        let found = same_color.iter().find(|known| ***known == material).cloned();
-        let material = found.unwrap_or_else(|| {
-            let material = Arc::new(material);
-            same_color.push(material.clone());
-            material
-        });
+        let material = self.equal_one(appearance.material());
         let met = (appearance.clone(), material.clone());
         if self.recent.len() < Self::RECENT {
             self.recent.push(met);
         } else {
-            self.recent[self.oldest] = met;
+            let (_, forgotten) = std::mem::replace(&mut self.recent[self.oldest], met);
             self.oldest = (self.oldest + 1) % Self::RECENT;
+            let same_color = self.known.entry(key(&forgotten)).or_default();
+            if !same_color.iter().any(|known| Arc::ptr_eq(known, &forgotten)) {
+                same_color.push(forgotten);
+            }
         }
         material
     }
+
+    /// The material met before that is equal to this one, or else this one.
+    fn equal_one(&self, material: Material) -> Arc<Material> {
+        let mut recent = self.recent.iter().map(|(_, known)| known);
+        let known = || self.known.get(&key(&material)).into_iter().flatten().find(|known| ***known == material);
+        recent.find(|known| ***known == material).or_else(known).cloned().unwrap_or_else(|| Arc::new(material))
+    }
+}
+
+fn key(material: &Material) -> [u64; 4] {
+    let [r, g, b] = material.color.map(f64::to_bits);
+    [r, g, b, material.opacity.to_bits()]
 }

@@ -6,6 +6,7 @@
 //! ([`Shape::bake`]). A shape that was never transformed therefore keeps its coordinates bit for bit, and a size of 0
 //! flattens without destroying (reference 3.2).
 
+use std::borrow::Cow;
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -158,8 +159,10 @@ impl Shape {
 
     /// Makes the stored positions the world positions.
     pub fn bake(&mut self) -> &Arc<Form> {
-        self.form = self.world_form();
-        self.binding = self.scope;
+        if self.binding != self.scope {
+            self.form = self.world_form();
+            self.binding = self.scope;
+        }
         &self.form
     }
 
@@ -191,6 +194,16 @@ impl Shape {
         let here = Scope { frame: Frame { origin: self.scope.frame.origin, axes }, size: self.scope.size };
         self.scope = Scope::around(&self.form.mesh.positions, axes).unwrap_or(here);
         self.binding = self.scope;
+    }
+
+    /// The shape with world positions: itself where they are that already.
+    pub fn baked(&self) -> Cow<'_, Shape> {
+        if self.binding == self.scope {
+            return Cow::Borrowed(self);
+        }
+        let mut baked = self.clone();
+        baked.bake();
+        Cow::Owned(baked)
     }
 
     /// What a part of this one begins as: geometry of its own, in world positions, in a scope of its own.

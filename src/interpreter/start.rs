@@ -24,7 +24,7 @@ use crate::source::{SourceId, Span};
 /// Sets up the run; `None` where there is nothing to derive.
 pub fn prepare<'p>(run: &mut Derivation<'p>) -> Outcome<Option<Task<'p>>> {
     let Some(rule) = start_rule(run) else { return Err(Stop) };
-    run.start_rule = run.program.rule(rule).name.clone();
+    run.start_rule = Some(&run.program.rule(rule).name);
     let span = run.program.rule(rule).span;
     if !run.start.mesh.positions.iter().all(|p| p.is_finite()) {
         run.error("cga::start-shape", span, "the start shape has a coordinate that is not a finite number".into());

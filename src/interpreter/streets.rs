@@ -113,6 +113,8 @@ pub fn facet_agrees(run: &Derivation, word: Word, facet: &Facet, outer: &Shape) 
     let mesh = &outer.form.mesh;
     let vertex = |v: u32| mesh.positions[v as usize];
     let at = match facet.place {
+        // Without streets nobody asks where it is.
+        _ if run.streets.is_none() => DVec3::ZERO,
         Place::Face(face) => middle(mesh, &mesh.faces[face as usize]),
         Place::Edge([a, b]) => vertex(a).midpoint(vertex(b)),
         Place::Vertex(v) => vertex(v),

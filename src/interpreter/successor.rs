@@ -10,6 +10,7 @@ use super::choice;
 use super::derivation::{Derivation, Symbol, Task};
 use super::dynamic_import;
 use super::environment::Env;
+use super::expression::EvaluatedArgs;
 use super::limits::Outcome;
 use super::operations::{self, Pieces};
 use super::seed::Seed;
@@ -133,10 +134,11 @@ impl<'p> Derivation<'p> {
         self.note_before(item, shape);
         match item {
             Item::Operation { operation, args, span } => {
-                let args = self.eval_args(args, &Env::new(shape, &body.slots, place))?;
+                let mut list = EvaluatedArgs::new();
+                self.eval_args_into(args, &Env::new(shape, &body.slots, place), &mut list)?;
                 let before = Arc::as_ptr(&shape.form);
                 let edited = self.before_edit(shape);
-                operations::apply(self, *operation, &args, *span, shape, reference)?;
+                operations::apply(self, *operation, &list, *span, shape, reference)?;
                 self.after_edit(edited, *operation, shape);
                 if !std::ptr::eq(before, Arc::as_ptr(&shape.form)) {
                     self.count_vertices(shape.form.mesh.positions.len(), *span)?;

@@ -78,7 +78,7 @@ pub(super) fn gabled(polygon: &Polygon) -> Result<PlanRoof, RoofError> {
     if single && edges.ends.len() == 4 {
         return upright_at(polygon, &[1, 3]);
     }
-    let mut plan = PlanRoof::of_skeleton(&hip);
+    let mut plan = PlanRoof::of_skeleton(hip);
     let ends: Vec<usize> = (0..plan.faces.len()).filter(|&f| !single && is_end(&plan, &edges, f)).collect();
     for f in ends {
         if let RoofPart::Top { edge: Some(edge) } = plan.faces[f].part
@@ -125,8 +125,9 @@ fn upright_at(polygon: &Polygon, upright: &[usize]) -> Result<PlanRoof, RoofErro
     for &edge in upright {
         weights[edge] = 0.0;
     }
-    let skeleton = skeleton(polygon, Some(&weights))?;
-    let mut plan = PlanRoof::of_skeleton(&skeleton);
+    let mut skeleton = skeleton(polygon, Some(&weights))?;
+    let extras = std::mem::take(&mut skeleton.extras);
+    let mut plan = PlanRoof::of_skeleton(skeleton);
     for face in &mut plan.faces {
         if let RoofPart::Top { edge: Some(edge) } = face.part
             && upright.contains(&edge)
@@ -134,8 +135,8 @@ fn upright_at(polygon: &Polygon, upright: &[usize]) -> Result<PlanRoof, RoofErro
             face.part = RoofPart::Side { edge };
         }
     }
-    for ring in &skeleton.extras {
-        plan.faces.push(PlanFace { part: RoofPart::Top { edge: None }, ring: ring.clone(), holes: Vec::new() });
+    for ring in extras {
+        plan.faces.push(PlanFace { part: RoofPart::Top { edge: None }, ring, holes: Vec::new() });
     }
     Ok(plan)
 }

@@ -16,7 +16,7 @@ use crate::geometry::skeleton::skeleton;
 pub fn hip(polygon: &Polygon, slope: Slope, overhang: f64, even: bool) -> Result<Roof, RoofError> {
     let overhang = check_overhang(overhang)?;
     slope.tangent(1.0)?;
-    let mut plan = PlanRoof::of_skeleton(&skeleton(polygon, None)?);
+    let mut plan = PlanRoof::of_skeleton(skeleton(polygon, None)?);
     let tangent = slope.tangent(plan.highest())?;
     plan.scale_heights(tangent);
     if even {

@@ -32,12 +32,12 @@ pub(super) struct PlanRoof {
 
 impl PlanRoof {
     /// The faces of a skeleton, at slope 1.
-    pub fn of_skeleton(skeleton: &Skeleton) -> PlanRoof {
+    pub fn of_skeleton(skeleton: Skeleton) -> PlanRoof {
         let nodes = skeleton.nodes.iter().map(|n| PlanNode { position: n.position, height: n.time }).collect();
-        let faces = skeleton.faces.iter().map(|f| PlanFace {
+        let faces = skeleton.faces.into_iter().map(|f| PlanFace {
             part: RoofPart::Top { edge: Some(f.edge) },
-            ring: f.boundary.clone(),
-            holes: f.holes.clone(),
+            ring: f.boundary,
+            holes: f.holes,
         });
         PlanRoof { nodes, faces: faces.collect(), warnings: Vec::new() }
     }
@@ -67,30 +67,31 @@ impl PlanRoof {
 
     /// Add the bottom, leave out nodes no face uses, and go to space: plan (x, y) becomes (x, height, -y).
     pub fn into_roof(self, polygon: &Polygon) -> Roof {
-        let mut roof = Roof { warnings: self.warnings.clone(), ..Roof::default() };
+        let PlanRoof { nodes, faces, warnings } = self;
         let bottom = bottom(polygon);
-        let mut number = vec![u32::MAX; self.nodes.len()];
-        for face in std::iter::once(&bottom).chain(&self.faces) {
-            let mut loops = std::iter::once(&face.ring).chain(&face.holes).map(|ring| {
-                let place = |&id: &u32| number_of(&mut number, &mut roof.mesh, &self.nodes, id);
-                ring.iter().map(place).collect::<Loop>()
-            });
-            let outer = loops.next().unwrap_or_default();
-            let holes = loops.collect();
-            roof.mesh.faces.push(Face { outer, holes, ..Face::default() });
-            roof.parts.push(face.part);
+        let mut mesh = Mesh { positions: Vec::with_capacity(nodes.len()), faces: Vec::with_capacity(faces.len() + 1) };
+        let mut parts = Vec::with_capacity(faces.len() + 1);
+        let mut number = vec![u32::MAX; nodes.len()];
+        for face in std::iter::once(&bottom).chain(&faces) {
+            let mut placed = |ring: &Vec<u32>| -> Loop {
+                ring.iter().map(|&id| number_of(&mut number, &mut mesh.positions, &nodes, id)).collect()
+            };
+            let outer = placed(&face.ring);
+            let holes = face.holes.iter().map(placed).collect();
+            mesh.faces.push(Face { outer, holes, ..Face::default() });
+            parts.push(face.part);
         }
-        roof
+        Roof { mesh, parts, warnings }
     }
 }
 
 /// The number of a node in the mesh; a new one if it has none yet.
-fn number_of(number: &mut [u32], mesh: &mut Mesh, nodes: &[PlanNode], id: u32) -> u32 {
+fn number_of(number: &mut [u32], positions: &mut Vec<DVec3>, nodes: &[PlanNode], id: u32) -> u32 {
     let n = &mut number[id as usize];
     if *n == u32::MAX {
-        *n = mesh.positions.len() as u32;
+        *n = positions.len() as u32;
         let PlanNode { position: p, height } = nodes[id as usize];
-        mesh.positions.push(DVec3::new(p.x, height, -p.y));
+        positions.push(DVec3::new(p.x, height, -p.y));
     }
     *n
 }

@@ -73,7 +73,7 @@ impl Profile {
 /// # Errors
 /// Angles or distance outside their domain; those of the skeleton.
 pub fn mansard(polygon: &Polygon, lower: f64, upper: f64, break_distance: f64) -> Result<Roof, RoofError> {
-    let plan = PlanRoof::of_skeleton(&skeleton(polygon, None)?);
+    let plan = PlanRoof::of_skeleton(skeleton(polygon, None)?);
     let profile = Profile::two_slopes(lower, upper, break_distance, plan.highest())?;
     Ok(bend(plan, &profile).into_roof(polygon))
 }
@@ -93,7 +93,7 @@ pub fn gambrel(polygon: &Polygon, lower: f64, upper: f64, break_distance: f64) -
 /// # Errors
 /// A height outside its domain; those of the skeleton.
 pub fn dome(polygon: &Polygon, height: f64, pieces: u32) -> Result<Roof, RoofError> {
-    let plan = PlanRoof::of_skeleton(&skeleton(polygon, None)?);
+    let plan = PlanRoof::of_skeleton(skeleton(polygon, None)?);
     let profile = Profile::ellipse(height, plan.highest(), pieces)?;
     Ok(bend(plan, &profile).into_roof(polygon))
 }

@@ -24,32 +24,32 @@ pub fn call(
     site: Option<DrawSite>,
     env: &Env,
 ) -> Outcome<Option<Value>> {
-    let path = input.text(0);
+    let path = || input.text(0);
     Ok(Some(match function {
-        F::FileExists => Value::Bool(exists(run, &path, input)),
-        F::FileSearch => list::joined(search(run, &path, input.span).iter().map(|s| &**s)),
-        F::FilesSearch => Value::strings(search(run, &path, input.span).to_vec()),
+        F::FileExists => Value::Bool(exists(run, &path(), input)),
+        F::FileSearch => list::joined(search(run, &path(), input.span).iter().map(|s| &**s)),
+        F::FilesSearch => Value::strings(search(run, &path(), input.span).to_vec()),
         F::FileRandom => {
-            let found = search(run, &path, input.span);
+            let found = search(run, &path(), input.span);
             if found.is_empty() {
-                run.warn("cga::missing-file", input.span, || format!("no file matches `{path}`"));
+                run.warn("cga::missing-file", input.span, || format!("no file matches `{}`", path()));
             }
             Value::String(pick(&found, env.draw(site)))
         }
         F::ReadTextFile => {
-            let text = run.assets.text(folder(run, input.span), &path);
+            let text = run.assets.text(folder(run, input.span), &path());
             let text = text.unwrap_or_else(|error| missing(run, input, &error));
             run.check_text(text.len(), input.span)?;
             Value::String(text)
         }
-        F::ReadStringTable => Value::Strings(table(run, &path, input)),
-        F::ReadFloatTable => Value::Floats(Value::Strings(table(run, &path, input)).to_floats()),
+        F::ReadStringTable => Value::Strings(table(run, &path(), input)),
+        F::ReadFloatTable => Value::Floats(Value::Strings(table(run, &path(), input)).to_floats()),
         F::ReadMaterial => {
-            let pairs = run.assets.material(folder(run, input.span), &path);
+            let pairs = run.assets.material(folder(run, input.span), &path());
             pairs_value(&pairs.unwrap_or_else(|error| missing(run, input, &error)))
         }
         F::GetMaterial => get_material(run, input, env),
-        F::AssetInfo => match geometry(run, &path, input.span) {
+        F::AssetInfo => match geometry(run, &path(), input.span) {
             Ok(asset) => Value::Float(match input.word(1) {
                 Some(Word::Sx) => asset.size.x,
                 Some(Word::Sy) => asset.size.y,
@@ -60,10 +60,10 @@ pub fn call(
             }),
             Err(error) => Value::Float(missing(run, input, &error)),
         },
-        F::AssetMetadata => metadata(run, &path, input),
-        F::AssetNamingInfo => list::joined(names(run, &path, input).iter().map(|s| &**s)),
-        F::AssetNamingInfos => Value::strings(names(run, &path, input)),
-        F::ImageInfo => match image(run, &path, input.span) {
+        F::AssetMetadata => metadata(run, &path(), input),
+        F::AssetNamingInfo => list::joined(names(run, &path(), input).iter().map(|s| &**s)),
+        F::AssetNamingInfos => Value::strings(names(run, &path(), input)),
+        F::ImageInfo => match image(run, &path(), input.span) {
             Ok(info) if input.word(1) == Some(Word::Sx) => Value::Float(f64::from(info.width)),
             Ok(info) => Value::Float(f64::from(info.height)),
             Err(error) => Value::Float(missing(run, input, &error)),

@@ -102,11 +102,13 @@ pub fn call(
         F::GetTreeKey => place::tree_key(run),
         F::Convert => convert::convert(run, &input, env.shape),
         other => {
+            if let Some(value) = math::call(other, &input) {
+                return Ok(value);
+            }
             if let Some(value) = files::call(run, other, &input, site, env)? {
                 return Ok(value);
             }
-            let value = math::call(other, &input)
-                .or_else(|| geometry::call(run, other, &input, env.shape))
+            let value = geometry::call(run, other, &input, env.shape)
                 .or_else(|| tags::call(other, &input, env))
                 .or_else(|| context::call(run, other, &input, env.shape))
                 .or_else(|| edge::call(run, other, &input, env.shape))

@@ -1,6 +1,7 @@
 //! `comp` and the comp function (reference 4.1, 6.7). In: a selector block. Out: components as shapes in their own
 //! frames, or one value per component.
 
+use std::borrow::Cow;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
@@ -37,8 +38,8 @@ pub fn pieces<'p>(
 }
 
 /// A shape taken apart.
-struct Apart<'p> {
-    parent: Shape,
+struct Apart<'s, 'p> {
+    parent: Cow<'s, Shape>,
     components: Components,
     /// The number of the selector that took each component.
     owners: Vec<Option<usize>>,
@@ -61,16 +62,15 @@ pub fn pieces_and_rest<'p>(
     Ok((pieces, rest))
 }
 
-fn take_apart<'p>(
+fn take_apart<'s, 'p>(
     run: &mut Derivation<'p>,
     component: Component,
     keep_axes: bool,
     selectors: &'p [Selector],
     span: Span,
-    env: &Env,
-) -> Outcome<Apart<'p>> {
-    let mut parent = env.shape.clone();
-    parent.bake();
+    env: &Env<'s>,
+) -> Outcome<Apart<'s, 'p>> {
+    let parent = env.shape.baked();
     let tests: Vec<Test> = selectors.iter().map(|s| Test { test: &s.test, text: &s.text }).collect();
     let components = Components::of(&parent, component, keep_axes, Wanted::by(&tests));
     let owners = assign(run, &components, &parent, &tests, env)?;
@@ -206,8 +206,7 @@ pub fn values<'p>(
     expr: &'p Expr,
     env: &Env,
 ) -> Outcome<Value> {
-    let mut parent = env.shape.clone();
-    parent.bake();
+    let parent = env.shape.baked();
     let tests: Vec<Test> = selectors.iter().map(|s| Test { test: &s.test, text: &s.text }).collect();
     let components = Components::of(&parent, component, keep_axes, Wanted::by(&tests));
     let owners = assign(run, &components, &parent, &tests, env)?;

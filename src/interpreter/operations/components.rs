@@ -120,7 +120,7 @@ impl Components {
             Component::Groups if parent.form.mesh.faces.is_empty() => (*parent.form).clone(),
             Component::Faces | Component::Groups | Component::Materials => {
                 let facets = group.iter().flat_map(|&i| self.facets(i));
-                let faces: Vec<usize> = facets.filter_map(face_of).collect();
+                let faces: Group = facets.filter_map(face_of).collect();
                 parent.form.part(&faces)
             }
             Component::Holes => self.filled(&parent.form, group),

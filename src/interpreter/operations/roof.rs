@@ -78,7 +78,7 @@ fn build(
         match roofed(&frame.face_to_plan(source, face), &frame) {
             Ok(roof) => {
                 warn(run, args, &roof.warnings);
-                append(&mut mesh, &roof.mesh, &frame);
+                append(&mut mesh, roof.mesh, &frame);
                 sources.resize(mesh.faces.len(), Some(number as u32));
                 parts.extend(roof.parts.iter().map(|part| (number, *part)));
             }
@@ -94,11 +94,11 @@ fn build(
 }
 
 /// Adds a roof given over its polygon: plan (x, y) at height h is local (x, h, -y).
-fn append(mesh: &mut Mesh, roof: &Mesh, frame: &PlaneFrame) {
+fn append(mesh: &mut Mesh, roof: Mesh, frame: &PlaneFrame) {
     let start = mesh.positions.len() as u32;
     mesh.positions.extend(roof.positions.iter().map(|p| frame.to_space(DVec2::new(p.x, -p.z), p.y)));
-    for face in &roof.faces {
-        let mut face = face.clone();
+    mesh.faces.reserve(roof.faces.len());
+    for mut face in roof.faces {
         face.outer.iter_mut().chain(face.holes.iter_mut().flatten()).for_each(|v| *v += start);
         mesh.faces.push(face);
     }

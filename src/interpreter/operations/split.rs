@@ -22,8 +22,7 @@ pub fn along_scope<'p>(
     span: Span,
     env: &Env,
 ) -> Outcome<Pieces<'p>> {
-    let mut parent = env.shape.clone();
-    parent.bake();
+    let parent = env.shape.baked();
     let axis = axis_number(axis);
     let total = parent.scope.size[axis].abs();
     let layout = split_pattern::lay_out(run, block, total, span, env)?;

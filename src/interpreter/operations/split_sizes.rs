@@ -40,6 +40,8 @@ pub struct TooMany;
 
 /// Sizes below this are nothing (reference 4.3.1; numerics section 3, `min_size`).
 pub const LEAST: f64 = 1e-6;
+/// Up to this many slabs room is made at once.
+const USUAL: usize = 64;
 /// Ties of the repeat count go to the smaller number.
 const TIE: f64 = 1e-9;
 
@@ -200,7 +202,9 @@ impl Layout {
         }
         let room = self.total - sums.fixed;
         let scale = if sums.floating > 0.0 && room > 0.0 { room / sums.floating } else { 0.0 };
-        let mut cursor = Cursor { total: self.total, position: 0.0, lost: 0.0, out: Resolved::default() };
+        let slabs = Vec::with_capacity((sums.pieces as usize).min(USUAL));
+        let out = Resolved { slabs, too_thin: None };
+        let mut cursor = Cursor { total: self.total, position: 0.0, lost: 0.0, out };
         self.lay(blocks, &mut 0, scale, f64::INFINITY, &mut cursor);
         Ok(cursor.out)
     }

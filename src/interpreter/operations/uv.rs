@@ -85,8 +85,11 @@ pub fn project(run: &mut Derivation, args: &Args, shape: &mut Shape) {
     form.instanced = false;
     let Form { mesh, .. } = form;
     for face in &mut mesh.faces {
-        let mut uv = CornerUvs::new();
-        face.loops().for_each(|l| uv.extend(l.iter().map(|&v| projection.uv(mesh.positions[v as usize]))));
+        let at = |v: u32| projection.uv(mesh.positions[v as usize]);
+        let uv = match face.outer[..] {
+            [a, b, c, d] if face.holes.is_empty() => CornerUvs::from([a, b, c, d].map(at)),
+            _ => face.corners().map(at).collect(),
+        };
         put(&mut face.uvs, set, uv);
     }
 }
