@@ -6,6 +6,7 @@
 pub mod body;
 pub mod boolean;
 pub mod box_tree;
+pub mod canonical;
 pub mod convex_parts;
 pub mod cut;
 pub mod envelope;

@@ -7,6 +7,7 @@ use crate::geodata::feature::{Feature, FeatureClass, Outline};
 use crate::geodata::features::ribbon::{Cap, ribbon};
 use crate::geodata::tags::road_width;
 use crate::geodata::terrain::Terrain;
+use crate::geometry::canonical::canonical_order;
 use crate::geometry::mesh::Loop;
 use crate::geometry::{Face, Mesh, Polygon};
 use crate::interpreter::tree::Leaf;
@@ -31,6 +32,9 @@ pub struct Lot {
     /// World coordinates in the plane y = `base`.
     pub mesh: Mesh,
     pub base: f64,
+    /// For every edge of the mesh, in face-edge order, its number in the map's outline; empty where the outline is made,
+    /// as a road's is.
+    pub map_edges: Vec<usize>,
     polygons: Vec<Polygon>,
     stand: Stand,
 }
@@ -47,10 +51,15 @@ impl Lot {
     /// `caps` are the ends of a road's ribbon; `whole` is the relief under the whole building that a part belongs to.
     /// Says why where there is no lot.
     pub fn new(feature: &Feature, caps: [Cap; 2], whole: Option<Relief>, terrain: &Terrain) -> Result<Lot, String> {
-        let polygons = match &feature.outline {
-            Outline::Area(polygon) => vec![polygon.clone()],
+        let (polygons, map_edges) = match &feature.outline {
+            Outline::Area(polygon) => {
+                let mut polygon = polygon.clone();
+                let edges = canonical_order(&mut polygon);
+                (vec![polygon], edges)
+            }
             Outline::Line(line) => {
-                ribbon(line, road_width(&feature.tags).metres, caps).map_err(|e| format!("no surface: {e}"))?
+                let width = road_width(&feature.tags).metres;
+                (ribbon(line, width, caps).map_err(|e| format!("no surface: {e}"))?, Vec::new())
             }
         };
         if polygons.iter().all(|p| p.outer.len() < 3) {
@@ -67,7 +76,7 @@ impl Lot {
         } else {
             (mean, Stand::Draped { priority: priority(feature, &polygons), surface: surface(feature), lift: 0.0 })
         };
-        Ok(Lot { mesh: mesh(&polygons, base), base, polygons, stand })
+        Ok(Lot { mesh: mesh(&polygons, base), base, map_edges, polygons, stand })
     }
 
     /// Sorts the leaves of a derivation. Leaves with flat faces on a building's footprint, such as ash, drape it, and

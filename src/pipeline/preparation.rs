@@ -17,7 +17,7 @@ use crate::geodata::ledger::{Ledger, Outcome};
 use crate::geodata::projection::LocalFrame;
 use crate::geodata::tags::{self, Defaults, TagValue};
 use crate::geodata::terrain::Terrain;
-use crate::interpreter::host::Place as OnEarth;
+use crate::interpreter::host::{EdgeAttribute, EdgeValues, Place as OnEarth};
 use crate::interpreter::seed::Seed;
 use crate::interpreter::tree::Scalar;
 use crate::interpreter::{HostData, StartShape};
@@ -153,7 +153,11 @@ impl<'a> Preparation<'a> {
 
     fn host(&self, lot: &Lot, program: &Program) -> HostData {
         let streets = self.streets.as_ref().filter(|_| program.needs().edges);
-        let known = streets.map_or_else(HostData::default, |streets| streets.of_edges(&lot.mesh));
+        let mut known = streets.map_or_else(HostData::default, |streets| streets.of_edges(&lot.mesh));
+        if program.needs().edges && !lot.map_edges.is_empty() {
+            let values = EdgeValues::Floats(lot.map_edges.iter().map(|&number| number as f64).collect());
+            known.edge_attributes.push(EdgeAttribute { name: "mapEdge".into(), values });
+        }
         HostData { place: Some(self.on_earth.clone()), ..known }
     }
 
