@@ -86,18 +86,8 @@ impl<'b> Choices<'b> {
     }
 
     fn name(&mut self) {
-        let name = self.pick(&[
-            "a",
-            "top",
-            "Lot",
-            "scope.sx",
-            "split",
-            "comp",
-            "inline",
-            "a_long_name_of_something",
-            "ö",
-            "start",
-        ]);
+        let name =
+            self.pick(&["a", "top", "Lot", "scope.sx", "split", "comp", "inline", "a_long_name_of_something", "ö"]);
         self.word(name);
     }
 
@@ -331,11 +321,10 @@ impl<'b> Choices<'b> {
             9 => {
                 self.word("lib");
                 self.overrides();
-                let at = self.out.trim_end().len();
-                if self.out[..at].ends_with(')') {
-                    self.out.truncate(at);
-                    self.word(".Rule");
-                }
+                // The dot stands directly behind the parenthesis, so a comment there has to go.
+                let at = self.out.rfind(')').expect("overrides end with a parenthesis");
+                self.out.truncate(at + 1);
+                self.word(".Rule");
             }
             10 => {
                 self.words(&["splitAndSetbackPerimeter", "(", "1", ")", "{", "~1", ":", "2", ":"]);
