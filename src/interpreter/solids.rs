@@ -22,19 +22,27 @@ pub fn unified(run: &mut Derivation, dressed: Dressed, span: Span) -> Dressed {
     let dress = |form: Form| Dressed { form: Arc::new(form), appearance: appearance.clone() };
     let mut done: Vec<Dressed> = Vec::new();
     for cluster in clusters(&parts) {
-        let mut members = cluster.into_iter().map(|i| dress(parts[i].clone()));
-        let Some(first) = members.next() else { continue };
-        let mut joined = first;
+        // A copy of a part adds nothing.
+        let mut members: Vec<&Form> = Vec::new();
+        for part in cluster.into_iter().map(|i| &parts[i]) {
+            if !members.iter().any(|m| m.mesh == part.mesh) {
+                members.push(part);
+            }
+        }
+        let mut members = members.into_iter().cloned().map(dress);
+        let Some(mut joined) = members.next() else { continue };
+        let mut apart = Vec::new();
         for next in members {
-            joined = match united(&joined, &next) {
-                Ok(form) => dress(form),
+            match united(&joined, &next) {
+                Ok(form) => joined = dress(form),
                 Err(error) => {
                     warn(run, error, span);
-                    appended(&[joined, next])
+                    apart.push(next);
                 }
-            };
+            }
         }
         done.push(joined);
+        done.extend(apart);
     }
     Dressed { form: appended(&done).form, appearance }
 }

@@ -10,6 +10,7 @@ mod editing;
 mod expressions;
 mod files;
 mod flat;
+mod found;
 mod frames;
 mod groups;
 mod imports;

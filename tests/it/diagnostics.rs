@@ -14,14 +14,6 @@ use mansard::interpreter::tree::Scalar;
 use mansard::interpreter::{FileAssets, Limits, StartShape, derive};
 use mansard::source::{Access, SourceMap};
 
-/// Defences of the geometry kernel that no known text raises; their pages say so.
-const WITHOUT_CASE: &[&str] = &["cga::offset", "cga::setback", "cga::boolean", "cga::convexify"];
-
-/// The codes that have a case.
-fn with_case() -> impl Iterator<Item = &'static str> {
-    codes::ALL.iter().copied().filter(|code| !WITHOUT_CASE.contains(code))
-}
-
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
@@ -37,16 +29,20 @@ fn stem(code: &str) -> &str {
 
 fn footprint(name: &str) -> Mesh {
     let corners: &[(f64, f64)] = match name {
-        "" | "ring" | "nan" => &[(0.0, 0.0), (10.0, 0.0), (10.0, 8.0), (0.0, 8.0)],
+        "" | "ring" | "nan" | "hollow" => &[(0.0, 0.0), (10.0, 0.0), (10.0, 8.0), (0.0, 8.0)],
         "doubled" => &[(0.0, 0.0), (10.0, 0.0), (10.0, 0.0), (10.0, 8.0), (0.0, 8.0)],
         "wide" => &[(0.0, 0.0), (4e9, 0.0), (4e9, 8.0), (0.0, 8.0)],
         "ell" => &[(0.0, 0.0), (10.0, 0.0), (10.0, 3.0), (3.0, 3.0), (3.0, 8.0), (0.0, 8.0)],
         "cee" => &[(0.0, 0.0), (10.0, 0.0), (10.0, 1.0), (1.0, 1.0), (1.0, 7.0), (10.0, 7.0), (10.0, 8.0), (0.0, 8.0)],
+        "spike" => &[(0.0, 0.0), (10.0, 0.0), (10.0, 8.0), (10.0, 3.0), (0.0, 8.0)],
         other => panic!("there is no footprint `{other}`"),
     };
     let points = |list: &[(f64, f64)]| list.iter().map(|&(x, y)| glam::DVec2::new(x, y)).collect::<Vec<_>>();
-    let hole = points(&[(3.0, 3.0), (3.0, 5.0), (7.0, 5.0), (7.0, 3.0)]);
-    let holes = if name == "ring" { vec![hole] } else { Vec::new() };
+    let holes = match name {
+        "ring" => vec![points(&[(3.0, 3.0), (3.0, 5.0), (7.0, 5.0), (7.0, 3.0)])],
+        "hollow" => vec![points(corners).into_iter().rev().collect()],
+        _ => Vec::new(),
+    };
     let mut mesh = Mesh::default();
     PlaneFrame::PLAN.push_face(&mut mesh, &Polygon { outer: points(corners), holes }, 0.0);
     if name == "nan" {
@@ -105,7 +101,7 @@ fn problems(code: &str) -> Vec<String> {
 
 #[test]
 fn every_code_has_a_case_that_raises_it() {
-    let problems: Vec<String> = with_case().flat_map(problems).collect();
+    let problems: Vec<String> = codes::ALL.iter().copied().flat_map(problems).collect();
     assert!(problems.is_empty(), "{}", problems.join("\n"));
 }
 
@@ -114,7 +110,7 @@ fn every_case_has_a_code() {
     for entry in std::fs::read_dir(cases()).expect("the folder of the cases exists") {
         let path = entry.expect("the folder can be listed").path();
         let stem = path.file_stem().expect("a name").to_string_lossy().into_owned();
-        assert!(path.is_dir() || with_case().any(|c| self::stem(c) == stem), "{}: no such code", path.display());
+        assert!(path.is_dir() || codes::ALL.iter().any(|c| self::stem(c) == stem), "{}: no such code", path.display());
     }
 }
 
@@ -124,7 +120,7 @@ fn every_code_has_a_page_with_its_case_and_every_page_a_code() {
     let mut missing: Vec<&str> = codes::ALL.iter().copied().filter(|c| !documented.contains(c)).collect();
     missing.extend(documented.iter().filter(|c| !codes::ALL.contains(c)));
     assert!(missing.is_empty(), "a page or a code is missing: {missing:?}");
-    for code in with_case() {
+    for code in codes::ALL.iter().copied() {
         let page = explain(code).expect("it is documented");
         let bytes = std::fs::read(cases().join(format!("{}.cga", stem(code)))).expect("a case");
         let text = String::from_utf8_lossy(&bytes).into_owned();

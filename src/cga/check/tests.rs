@@ -83,6 +83,25 @@ fn broken_syntax_gives_no_program() {
     assert!(found.is_none());
 }
 
+/// `@A(@A(@A(...` took quadratic time. Sixteen times the text may take four times as long per byte, which leaves room
+/// for a busy machine.
+#[test]
+fn one_token_over_and_over_takes_linear_time() {
+    let time = |token: &str, count: usize| {
+        let text = token.repeat(count);
+        let one = |_| {
+            let start = std::time::Instant::now();
+            check(&text);
+            start.elapsed()
+        };
+        (0..3).map(one).min().expect("three tries")
+    };
+    for token in ["@A(", "(", "[", "{", "case ", "A --> ", "\"", "comp(f) { ", "/*"] {
+        let (short, long) = (time(token, 1_000), time(token, 16_000));
+        assert!(long < short * 64 + std::time::Duration::from_millis(20), "{token}: {short:?}, {long:?}");
+    }
+}
+
 #[test]
 fn the_deepest_text_allowed_compiles_and_is_dropped() {
     program(&format!("f = {}1{}", "(1+".repeat(160), ")".repeat(160)));

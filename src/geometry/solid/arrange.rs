@@ -32,6 +32,7 @@ pub fn settle(facets: &mut Facets, meetings: &Meetings) -> Result<Arrangement, S
         arrangement.roots.insert(number, roots);
     }
     let mut unsettled: BTreeSet<usize> = arrangement.roots.keys().copied().collect();
+    let mut most_cuts = None;
     for _ in 0..ROUNDS {
         let mut cuts: BTreeSet<(Edge, u32)> = BTreeSet::new();
         for &number in &unsettled {
@@ -40,6 +41,10 @@ pub fn settle(facets: &mut Facets, meetings: &Meetings) -> Result<Arrangement, S
                 return Err(SolidError::TooComplex);
             }
             find_cuts(&facets.list[number], &pieces, &mut facets.pool, &mut cuts);
+        }
+        // Segments that nearly lie on each other may be cut ever finer: each round then finds more than the one before.
+        if cuts.len() > *most_cuts.get_or_insert(4 * cuts.len() + 100) {
+            return Err(SolidError::NoCleanResult);
         }
         let Some(changed) = arrangement.insert(&cuts, &facets.pool) else { return Ok(arrangement) };
         let shares = |roots: &BTreeSet<Edge>| changed.iter().any(|e| roots.contains(e));

@@ -128,7 +128,7 @@ fn changed<T: Clone>(
     let valid = |x: f64| (x >= 0.0).then_some(x as usize);
     if input.len() == 4 {
         if let (Some(r), Some(c), Some(v)) = (valid(input.float(1)), valid(input.float(2)), value(0)) {
-            let (rows, columns) = (out.rows.max(r + 1), out.columns.max(c + 1));
+            let (rows, columns) = (out.rows.max(r.saturating_add(1)), out.columns.max(c.saturating_add(1)));
             check_size(run, rows.saturating_mul(columns), input.span)?;
             grow(&mut out, rows, columns, &default);
             out.items[r * columns + c] = v;

@@ -136,7 +136,7 @@ pub fn roof(program: &Program, source: &Form, form: &mut Form, sides: Sides, par
     form.auto_tag_faces("roof", parts.iter().map(name));
 }
 
-/// Border faces of an offset have the tags of their edge instead of their face's. `borders` gives the source face and
+/// Border faces of an offset and sides of an envelope have the tags of their edge instead of their face's. `borders` gives the source face and
 /// edge of every result face that is one.
 pub fn borders(source: &Form, form: &mut Form, borders: &[Option<(usize, usize)>]) {
     let Some(old) = source.tags().filter(|tags| !tags.is_empty()) else { return };

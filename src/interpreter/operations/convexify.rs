@@ -24,7 +24,9 @@ pub fn apply(run: &mut Derivation, args: &Args, shape: &mut Shape) {
         let target = out.face(number, frame);
         if parts.is_empty() {
             if !is_convex(&polygon) {
-                run.warn("cga::convexify", args.span, || "a face that crosses itself was left as it is".into());
+                run.warn("cga::convexify", args.span, || {
+                    "a face that crosses itself or is all hole was left as it is".into()
+                });
             }
             out.push(&target, &polygon);
             continue;

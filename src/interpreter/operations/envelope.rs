@@ -10,6 +10,7 @@ use super::super::expression::facet_matches;
 use super::super::shape::Shape;
 use super::super::value::Value;
 use super::args::Args;
+use super::auto_tags;
 use super::comp::Wanted;
 use super::components::Components;
 use super::extrude::replace_upright;
@@ -18,7 +19,7 @@ use crate::cga::program::Component;
 use crate::geometry::cut::{self, Origin};
 use crate::geometry::envelope::{Limit, Part, envelope};
 use crate::geometry::transform::flip_loop;
-use crate::geometry::{Mesh, PlaneFrame};
+use crate::geometry::{Face, Mesh, PlaneFrame};
 
 pub fn apply(run: &mut Derivation, args: &Args, shape: &mut Shape) {
     shape.bake();
@@ -35,17 +36,21 @@ pub fn apply(run: &mut Derivation, args: &Args, shape: &mut Shape) {
     }
     let limits = limits(run, args, shape);
     let upright = word == Some(Word::WorldUp);
-    let (mut mesh, mut sources, mut parts) = (Mesh::default(), Vec::new(), Vec::new());
+    let (mut mesh, mut sources, mut parts, mut stands_on) = (Mesh::default(), Vec::new(), Vec::new(), Vec::new());
     let mut first_edge = 0;
     for (number, face) in source.mesh.faces.iter().enumerate() {
         let edges = face.edges().count();
         let own = &limits[first_edge..first_edge + edges];
         first_edge += edges;
         match over_face(&source.mesh, number, own, height, upright) {
-            Ok((body, names)) => {
+            Ok((body, found)) => {
                 append(&mut mesh, &body);
                 sources.resize(mesh.faces.len(), Some(number as u32));
-                parts.extend(names);
+                parts.extend(found.iter().map(|part| name(*part, face.outer.len())));
+                stands_on.extend(found.iter().map(|part| match part {
+                    Part::Side { edge, .. } => Some((number, *edge)),
+                    _ => None,
+                }));
             }
             Err(error) => {
                 run.warn("cga::envelope", args.span, || format!("no envelope here: {error}"));
@@ -54,6 +59,7 @@ pub fn apply(run: &mut Derivation, args: &Args, shape: &mut Shape) {
         }
     }
     let mut form = source.derived(mesh, sources.into_iter());
+    auto_tags::borders(&source, &mut form, &stands_on);
     if run.program.observes_tags() {
         form.auto_tag_faces("envelope", parts.into_iter().map(Some));
     }
@@ -96,14 +102,14 @@ fn limits(run: &mut Derivation, args: &Args, shape: &Shape) -> Vec<Limit> {
     out
 }
 
-/// The body over one face in the world, with the tag of each of its faces.
+/// The body over one face in the world, and what each of its faces is; edges count as the face runs them.
 fn over_face(
     mesh: &Mesh,
     number: usize,
     limits: &[Limit],
     height: f64,
     upright: bool,
-) -> Result<(Mesh, Vec<&'static str>), String> {
+) -> Result<(Mesh, Vec<Part>), String> {
     let face = &mesh.faces[number];
     let frame = PlaneFrame::of_face(mesh, face).ok_or("the face has no area")?;
     let outer = face.outer.len();
@@ -117,15 +123,15 @@ fn over_face(
         let found = envelope(&frame.face_to_plan(mesh, face), &limits, height).map_err(|e| e.to_string())?;
         let lift = |p: &DVec3| frame.to_space(glam::DVec2::new(p.x, -p.z), p.y);
         let positions = found.mesh.positions.iter().map(lift).collect();
-        let names = found.parts.iter().map(|part| name(*part, outer)).collect();
-        return Ok((Mesh { positions, faces: found.mesh.faces }, names));
+        return Ok((Mesh { positions, faces: found.mesh.faces }, found.parts));
     }
     if frame.normal.y.abs() < 1e-6 {
         return Err("an upright face has nothing above it".into());
     }
     let ground = PlaneFrame { origin: DVec3::new(0.0, low, 0.0), ..PlaneFrame::PLAN };
     let mut plan = ground.face_to_plan(mesh, face);
-    if frame.normal.y < 0.0 {
+    let downwards = frame.normal.y < 0.0;
+    if downwards {
         // Seen from above the face runs the other way: edge i of n becomes edge n - i.
         let mut first = 0;
         for ring in std::iter::once(&mut plan.outer).chain(&mut plan.holes) {
@@ -144,12 +150,26 @@ fn over_face(
     if above.is_empty() {
         return Err("the face lies above the whole envelope".into());
     }
-    let names = above.origins.iter().map(|origin| match origin {
-        Origin::Face(i) => name(found.parts[*i as usize], outer),
-        Origin::Cap => "envelope.bottom",
+    let parts = above.origins.iter().map(|origin| match (origin, downwards) {
+        (Origin::Cap, _) => Part::Bottom,
+        (Origin::Face(i), false) => found.parts[*i as usize],
+        (Origin::Face(i), true) => turned(found.parts[*i as usize], face),
     });
-    let names = names.collect();
-    Ok((above.mesh, names))
+    let parts = parts.collect();
+    Ok((above.mesh, parts))
+}
+
+/// A part over a ring that was turned round, with its edge as the face runs it.
+fn turned(part: Part, face: &Face) -> Part {
+    let Part::Side { edge, slope } = part else { return part };
+    let mut first = 0;
+    for ring in face.loops() {
+        if edge < first + ring.len() {
+            return Part::Side { edge: first + (first + ring.len() - edge) % ring.len(), slope };
+        }
+        first += ring.len();
+    }
+    part
 }
 
 fn name(part: Part, outer: usize) -> &'static str {

@@ -165,3 +165,19 @@ fn envelopes_on_slopes_and_without_room() {
         ["cga::envelope"]
     );
 }
+
+/// Sides have the tags of the edge they stand on, their upright edges those of the vertex (reference 4.15.4).
+#[test]
+fn envelope_sides_have_the_tags_of_their_edges() {
+    for (direction, turn) in [("normal", ""), ("world.up", "reverseNormals "), ("world.up", "")] {
+        let rules = format!(
+            "Lot --> {turn}tag(\"lot\") tag(\"rim\", edges) tag(\"post\", vertices) envelope({direction}, 7, 4, 45)
+               comp(f) {{ geometry.hasTags(\"rim\", faces) && !geometry.hasTags(\"lot\", faces) : Side | geometry.hasTags(\"lot\", faces) : Other. }}
+             Side --> print(geometry.hasTags(\"post\", edges)) S."
+        );
+        let tree = derived(&rules, ground(SMALL));
+        assert_eq!((count(&tree, "S"), count(&tree, "Other")), (5, 2), "{direction} {turn}: {:?}", tree.diagnostics);
+        // The slope does not begin at a vertex.
+        assert_eq!(tree.prints.iter().filter(|p| *p == "true").count(), 4, "{direction} {turn}");
+    }
+}
