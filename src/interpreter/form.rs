@@ -9,6 +9,7 @@ use smallvec::SmallVec;
 
 use super::appearance::Appearance;
 use super::labels::Labels;
+use crate::geometry::mesh::Loop;
 use crate::geometry::transform::normals_under;
 use crate::geometry::{Face, Mesh};
 
@@ -135,9 +136,14 @@ fn single_face(mesh: &Mesh, face: &Face) -> Option<Mesh> {
         return None;
     }
     let positions = ring.iter().map(|&v| mesh.positions[v as usize]).collect();
-    let outer = (0..ring.len() as u32).collect();
-    let face = Face { outer, holes: Vec::new(), uvs: face.uvs.clone(), normals: face.normals.clone() };
-    Some(Mesh { positions, faces: vec![face] })
+    let mut single = match ring.len() {
+        4 => Face::new([0, 1, 2, 3]),
+        corners => Face::new((0..corners as u32).collect::<Loop>()),
+    };
+    if !face.uvs.is_empty() || !face.normals.is_empty() {
+        (single.uvs, single.normals) = (face.uvs.clone(), face.normals.clone());
+    }
+    Some(Mesh { positions, faces: vec![single] })
 }
 
 /// New numbers for old vertices, in order of first use: a list while there are few, a tree for many.

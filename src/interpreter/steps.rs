@@ -65,8 +65,8 @@ impl<'p> Steps<'p> {
 
     /// Child numbers from the root; none for the root.
     pub fn path(&self, id: StepId) -> Path {
-        let mut path: Path = self.below_root(id).map(|step| step.index).collect();
-        path.reverse();
+        let mut path = Path::from_elem(0, self.depth(id) as usize);
+        path.iter_mut().rev().zip(self.below_root(id)).for_each(|(place, step)| *place = step.index);
         path
     }
 

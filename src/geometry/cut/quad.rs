@@ -7,9 +7,13 @@ use std::array::from_fn;
 
 use glam::DVec3;
 
-use super::face::{Corner, Side, corner_normals, corner_uv, start_with_first_edge};
+use super::face::{Corner, Side, corner_normals, corner_uv};
 use super::{Origin, Piece, cut_point};
 use crate::geometry::{Face, Mesh, Plane};
+
+/// Which corner of a part starts its first edge, by the edge of the quad that the part begins on: a part runs along this
+/// edge and the next two, and starts with the one of the least number.
+const FIRST_EDGE: [usize; 4] = [0, 0, 2, 1];
 
 /// What is left of a quad.
 pub(super) struct Quad {
@@ -19,10 +23,14 @@ pub(super) struct Quad {
     origin: Origin,
 }
 
-/// One side of a cut: the corners of the part, and the positions they number.
+/// One side of a cut.
 struct Part {
-    corners: [Corner; 4],
+    /// Corner numbers into `positions`, starting with the first edge.
+    outer: [u32; 4],
     positions: [DVec3; 4],
+    /// The edge of the quad that the part begins on, and where the cut points are on that edge and the opposite one.
+    from: usize,
+    shares: [f64; 2],
 }
 
 impl Quad {
@@ -74,32 +82,40 @@ impl Quad {
 
     /// The part from the cut point on edge `from` to that on the opposite edge, which are given in this order.
     fn part(&self, from: usize, points: [DVec3; 2], shares: [f64; 2]) -> Part {
-        let [a, b, to] = [1, 2, 2].map(|step| (from + step) % 4);
-        let cut = |edge: usize, share: f64| (edge, (edge + 1) % 4, share);
-        let [va, vb] = [a, b].map(|corner| self.face.outer[corner]);
+        let [va, vb] = [1, 2].map(|step| self.face.outer[(from + step) % 4]);
         // Vertices keep their order; cut points come after them, in the order of their edges.
         let (pa, pb) = (self.positions[va as usize], self.positions[vb as usize]);
         let (na, nb, old) = if va < vb { (0, 1, [pa, pb]) } else { (1, 0, [pb, pa]) };
-        let (start, end, new) = if from < to { (2, 3, points) } else { (3, 2, [points[1], points[0]]) };
-        let mut corners = [
-            Corner { vertex: start, edge: Some(from), from: cut(from, shares[0]) },
-            Corner { vertex: na, edge: Some(a), from: (a, a, 0.0) },
-            Corner { vertex: nb, edge: Some(b), from: (b, b, 0.0) },
-            Corner { vertex: end, edge: None, from: cut(to, shares[1]) },
-        ];
-        start_with_first_edge(&mut corners);
-        Part { corners, positions: [old[0], old[1], new[0], new[1]] }
+        let (start, end, new) = if from < 2 { (2, 3, points) } else { (3, 2, [points[1], points[0]]) };
+        let mut outer = [start, na, nb, end];
+        outer.rotate_left(FIRST_EDGE[from]);
+        Part { outer, positions: [old[0], old[1], new[0], new[1]], from, shares }
     }
 
     fn face_of(&self, part: &Part) -> Face {
-        let complete = self.face.uvs.iter().filter(|(_, uv)| uv.len() == 4);
-        let uvs = complete.map(|(set, uv)| (*set, part.corners.each_ref().map(|c| corner_uv(uv, c)).into()));
-        Face {
-            outer: part.corners.each_ref().map(|c| c.vertex).into(),
-            holes: Vec::new(),
-            uvs: uvs.collect(),
-            normals: corner_normals(&self.face, 4, part.corners.iter()),
+        let mut face = Face::new(part.outer);
+        if !self.face.uvs.is_empty() || !self.face.normals.is_empty() {
+            let corners = self.corners(part);
+            let complete = self.face.uvs.iter().filter(|(_, uv)| uv.len() == 4);
+            let uvs = complete.map(|(set, uv)| (*set, corners.each_ref().map(|c| corner_uv(uv, c)).into()));
+            face.uvs = uvs.collect();
+            face.normals = corner_normals(&self.face, 4, corners.iter());
         }
+        face
+    }
+
+    /// What the corners of a part come from.
+    fn corners(&self, part: &Part) -> [Corner; 4] {
+        let edge = |step: usize| (part.from + step) % 4;
+        let cut = |edge: usize, share: f64| (edge, (edge + 1) % 4, share);
+        let from = [
+            cut(edge(0), part.shares[0]),
+            (edge(1), edge(1), 0.0),
+            (edge(2), edge(2), 0.0),
+            cut(edge(2), part.shares[1]),
+        ];
+        let first = FIRST_EDGE[part.from];
+        from_fn(|i| Corner { vertex: part.outer[i], edge: None, from: from[(i + first) % 4] })
     }
 
     pub fn into_piece(self) -> Piece {

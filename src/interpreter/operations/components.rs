@@ -119,6 +119,12 @@ impl Components {
         match self.kind {
             Component::Groups if parent.form.mesh.faces.is_empty() => (*parent.form).clone(),
             Component::Faces | Component::Groups | Component::Materials => {
+                if let &[single] = group
+                    && let [facet] = self.facets(single)
+                    && let Some(face) = face_of(facet)
+                {
+                    return parent.form.part(&[face]);
+                }
                 let facets = group.iter().flat_map(|&i| self.facets(i));
                 let faces: Group = facets.filter_map(face_of).collect();
                 parent.form.part(&faces)
