@@ -8,7 +8,7 @@ use super::polygon::{Polygon, Ring};
 /// Walls this much shorter than the longest one count as as long: the weld distance of maps (numerics section 3), metres.
 const AS_LONG: f64 = 1e-3;
 /// Sine of the turn between edges that are one wall: 1 degree.
-const STRAIGHT: f64 = 0.017_452_406_437_283_512;
+const STRAIGHT: f64 = 0.017_452_406_437_283_51;
 
 /// Every ring begins with its longest wall (edges in a line count together); of walls as long, with the one that begins
 /// farthest south, then west. Holes come in the order of their first points, south before north. Returns for every edge,
