@@ -21,6 +21,8 @@ pub struct Arrangement {
 
 /// Rounds of cutting after which the input is given up.
 const ROUNDS: usize = 12;
+/// Cuts of a round that may be more than those of the round before.
+const FEW_CUTS: usize = 100;
 /// Segments in one facet.
 const MOST_SEGMENTS: usize = 40_000;
 
@@ -32,7 +34,7 @@ pub fn settle(facets: &mut Facets, meetings: &Meetings) -> Result<Arrangement, S
         arrangement.roots.insert(number, roots);
     }
     let mut unsettled: BTreeSet<usize> = arrangement.roots.keys().copied().collect();
-    let mut most_cuts = None;
+    let mut last_cuts: Option<usize> = None;
     for _ in 0..ROUNDS {
         let mut cuts: BTreeSet<(Edge, u32)> = BTreeSet::new();
         for &number in &unsettled {
@@ -43,9 +45,10 @@ pub fn settle(facets: &mut Facets, meetings: &Meetings) -> Result<Arrangement, S
             find_cuts(&facets.list[number], &pieces, &mut facets.pool, &mut cuts);
         }
         // Segments that nearly lie on each other may be cut ever finer: each round then finds more than the one before.
-        if cuts.len() > *most_cuts.get_or_insert(4 * cuts.len() + 100) {
+        if last_cuts.is_some_and(|last| cuts.len() > FEW_CUTS.max(last)) {
             return Err(SolidError::NoCleanResult);
         }
+        last_cuts = Some(cuts.len());
         let Some(changed) = arrangement.insert(&cuts, &facets.pool) else { return Ok(arrangement) };
         let shares = |roots: &BTreeSet<Edge>| changed.iter().any(|e| roots.contains(e));
         unsettled = arrangement.roots.iter().filter(|(_, roots)| shares(roots)).map(|(n, _)| *n).collect();
