@@ -131,6 +131,8 @@ const RAISED_BY_RUNS: &[&str] = &[
     "cga::roof-index",
     "cga::roof-overlap",
     "cga::roof-holes",
+    "cga::roof-fallback",
+    "cga::roof-shape",
     "cga::offset",
     "cga::setback",
     "cga::inner-rectangle",

@@ -1,5 +1,13 @@
 //! Defects and measures of meshes. In: a mesh. Out: every case of one defect, by the function of its name.
 
+mod bodies;
+mod defects;
+mod self_intersection;
+
+pub use self::bodies::{Bodies, bodies};
+pub use self::defects::{Defect, ROUNDING, defects};
+pub use self::self_intersection::self_intersections;
+
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 

@@ -8,6 +8,7 @@ use super::progress::Progress;
 use super::recipe::Recipe;
 use super::record::{asset_files, geometry_hash, report_records};
 use super::textures;
+use super::validation::{FeatureChecks, Validation};
 use crate::dataset::manifest::{ChangeRecord, ChangedFeature, InputFile, SceneRecord};
 use crate::dataset::reports::SceneReports;
 use crate::diagnostics::Diagnostics;
@@ -31,6 +32,8 @@ pub struct BuiltScene {
     pub terrain: Terrain,
     pub record: SceneRecord,
     pub reports: SceneReports,
+    /// Only where mesh checks were asked for.
+    pub validation: Option<Validation>,
     /// Textures and geometry files that rules named.
     pub files: Vec<InputFile>,
     /// Mistakes met while deriving.
@@ -38,8 +41,20 @@ pub struct BuiltScene {
     pub prints: Vec<String>,
 }
 
+/// Whether meshes are checked for defects.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Checks {
+    Off,
+    All,
+}
+
 /// Builds the scene with this index.
-pub fn build_scene(recipe: &Recipe, index: usize, progress: &dyn Progress) -> Result<BuiltScene, PipelineError> {
+pub fn build_scene(
+    recipe: &Recipe,
+    index: usize,
+    checks: Checks,
+    progress: &dyn Progress,
+) -> Result<BuiltScene, PipelineError> {
     let spec = &recipe.spec.scenes[index];
 
     // Read the map and the elevation.
@@ -58,7 +73,7 @@ pub fn build_scene(recipe: &Recipe, index: usize, progress: &dyn Progress) -> Re
 
     // Derive every feature in every state.
     let assets = recipe.assets();
-    let derived = derive_features(recipe, spec, &place, (&assigned, &touched), &assets, progress);
+    let derived = derive_features(recipe, spec, &place, (&assigned, &touched), &assets, checks, progress);
 
     // Lay the ground under them and put everything together.
     progress.begin("scene", None);
@@ -94,8 +109,12 @@ pub fn build_scene(recipe: &Recipe, index: usize, progress: &dyn Progress) -> Re
         features.len(),
     );
     progress.end(&format!("{} triangles", record.triangles));
+    let validation = (checks == Checks::All).then(|| {
+        let features = derived.checked.into_iter().map(|(feature, bodies)| FeatureChecks::new(feature, bodies));
+        Validation { scene: spec.name.clone(), features: features.collect() }
+    });
     let (diagnostics, prints) = (derived.diagnostics, derived.prints);
-    Ok(BuiltScene { scene, frame, terrain, record, reports, files, diagnostics, prints })
+    Ok(BuiltScene { scene, frame, terrain, record, reports, validation, files, diagnostics, prints })
 }
 
 #[expect(clippy::too_many_arguments, reason = "the fields of one record")]

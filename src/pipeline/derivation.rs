@@ -4,15 +4,18 @@
 
 use rayon::prelude::*;
 
+use super::build::Checks;
 use super::lot::Lot;
 use super::neighbours::{derive_all, worlds};
 use super::place::Place;
 use super::preparation::{Preparation, Prepared, State, road_ends};
 use super::progress::Progress;
 use super::recipe::Recipe;
+use super::validation;
 use crate::diagnostics::{Diagnostics, Severity};
 use crate::geodata::ledger::{Ledger, Outcome};
 use crate::geodata::terrain::Terrain;
+use crate::geometry::mesh_checks::Bodies;
 use crate::interpreter::assets::Assets;
 use crate::interpreter::context::Member;
 use crate::interpreter::limits::Limits;
@@ -24,8 +27,16 @@ use crate::scene::parts::Parts;
 use crate::spec::render_spec::SceneSpec;
 
 /// Warnings after which a feature is there in a simpler form than its rules asked for.
-const FALLBACKS: &[&str] =
-    &["cga::roof", "cga::offset", "cga::setback", "cga::inner-rectangle", "cga::missing-asset", "cga::missing-texture"];
+const FALLBACKS: &[&str] = &[
+    "cga::roof",
+    "cga::roof-fallback",
+    "cga::roof-shape",
+    "cga::offset",
+    "cga::setback",
+    "cga::inner-rectangle",
+    "cga::missing-asset",
+    "cga::missing-texture",
+];
 
 /// What derivation gives.
 pub struct Derivation {
@@ -36,6 +47,8 @@ pub struct Derivation {
     pub ledger: Ledger,
     /// By feature, without those that reported nothing, in the order of the features.
     pub reports: Vec<(String, Vec<Report>)>,
+    /// By feature with geometry, in the order of the features; empty where no checks are asked for.
+    pub checked: Vec<(String, Bodies)>,
     pub diagnostics: Diagnostics,
     /// Lines of `print`, in the order of the features.
     pub prints: Vec<String>,
@@ -44,6 +57,7 @@ pub struct Derivation {
 /// What one state of a feature gives.
 struct Derived {
     parts: Parts,
+    checked: Option<Bodies>,
     reports: Vec<Report>,
     diagnostics: Diagnostics,
     prints: Vec<String>,
@@ -56,6 +70,7 @@ pub fn derive_features(
     place: &Place,
     (assigned, touched): (&[Option<usize>], &[Option<Changed>]),
     assets: &dyn Assets,
+    checks: Checks,
     progress: &dyn Progress,
 ) -> Derivation {
     let preparation = Preparation::new(recipe, scene, place);
@@ -79,7 +94,7 @@ pub fn derive_features(
     progress.begin("derive", Some(members.len() as u64));
     let derived = derive_all(&members, assets, &Limits::default(), |number, tree| {
         let lot = prepared[states[number].0].lot.as_ref().expect("a feature with states has a lot");
-        let derived = derived(tree, lot, &place.terrain);
+        let derived = derived(tree, lot, &place.terrain, checks);
         progress.step(1);
         derived
     });
@@ -89,6 +104,7 @@ pub fn derive_features(
         outcomes: Vec::new(),
         ledger: Ledger::default(),
         reports: Vec::new(),
+        checked: Vec::new(),
         diagnostics: Diagnostics::default(),
         prints: Vec::new(),
     };
@@ -101,6 +117,7 @@ pub fn derive_features(
         if !share.reports.is_empty() {
             out.reports.push((feature.id.to_string(), share.reports));
         }
+        out.checked.extend(share.checked.map(|bodies| (feature.id.to_string(), bodies)));
         out.diagnostics.extend(share.diagnostics);
         out.prints.extend(share.prints);
         if !share.states.is_empty() {
@@ -114,11 +131,13 @@ pub fn derive_features(
     out
 }
 
-fn derived(tree: ShapeTree, lot: &Lot, terrain: &Terrain) -> Derived {
+fn derived(tree: ShapeTree, lot: &Lot, terrain: &Terrain, checks: Checks) -> Derived {
     let failed = tree.diagnostics.iter().any(|d| d.severity == Severity::Error);
     let parts = if failed { Parts::default() } else { lot.parts(&tree.leaves, terrain) };
+    let checked =
+        (checks == Checks::All && !failed && !tree.leaves.is_empty()).then(|| validation::check(&tree.leaves));
     let ShapeTree { diagnostics, prints, reports, .. } = tree;
-    Derived { parts, reports, diagnostics, prints }
+    Derived { parts, checked, reports, diagnostics, prints }
 }
 
 /// One feature's share of the scene.
@@ -127,6 +146,7 @@ struct Share {
     states: Vec<StateParts>,
     ledger: Ledger,
     reports: Vec<Report>,
+    checked: Option<Bodies>,
     diagnostics: Diagnostics,
     prints: Vec<String>,
 }
@@ -138,6 +158,7 @@ fn share(prepared: Prepared, states: impl Iterator<Item = (State, Derived)>) -> 
         states: Vec::new(),
         ledger: prepared.ledger,
         reports: Vec::new(),
+        checked: None,
         diagnostics: Diagnostics::default(),
         prints: Vec::new(),
     };
@@ -151,12 +172,16 @@ fn share(prepared: Prepared, states: impl Iterator<Item = (State, Derived)>) -> 
             out.diagnostics.extend(derived.diagnostics);
             out.states.clear();
             out.reports.clear();
+            out.checked = None;
             out.prints.clear();
             continue;
         }
         let simpler = derived.diagnostics.iter().find(|d| FALLBACKS.contains(&d.code));
         if let (Outcome::Ok, Some(simpler)) = (&out.outcome, simpler) {
             out.outcome = Outcome::FellBack(simpler.message.clone());
+        }
+        if let Some(bodies) = derived.checked {
+            out.checked.get_or_insert_default().add(bodies);
         }
         if state.counts {
             out.reports = derived.reports;

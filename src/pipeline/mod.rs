@@ -20,13 +20,15 @@ pub mod shipped;
 mod single;
 mod streets;
 mod textures;
+mod validation;
 mod views;
 
-pub use build::{BuiltScene, build_scene};
+pub use build::{BuiltScene, Checks, build_scene};
 pub use error::PipelineError;
 pub use portrait::portrait;
 pub use progress::{Progress, Silent};
 pub use recipe::{Recipe, RecipeOptions, load_recipe};
 pub use render::{RenderOptions, RenderSummary, render_dataset};
 pub use single::single_scene;
+pub use validation::{DefectTotal, FeatureChecks, Validation};
 pub use views::{PlannedRecipe, plan_views};

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::sync_channel;
 
-use super::build::{BuiltScene, build_scene};
+use super::build::{BuiltScene, Checks, build_scene};
 use super::error::PipelineError;
 use super::progress::Progress;
 use super::recipe::Recipe;
@@ -62,7 +62,7 @@ pub fn render_dataset(
     let mut built = Vec::new();
     let mut scene_files = Vec::new();
     for index in 0..recipe.spec.scenes.len() {
-        let scene = build_scene(recipe, index, progress)?;
+        let scene = build_scene(recipe, index, Checks::Off, progress)?;
         told(&scene);
         let glb = to_glb(&scene.scene, recipe.attribution())?;
         let single = recipe.spec.scenes.len() == 1;

@@ -4,7 +4,7 @@
 use glam::{DVec2, DVec3};
 use serde_json::{Value, json};
 
-use super::build::{BuiltScene, build_scene};
+use super::build::{BuiltScene, Checks, build_scene};
 use super::error::PipelineError;
 use super::progress::Progress;
 use super::recipe::Recipe;
@@ -53,7 +53,7 @@ pub struct PlannedRecipe {
 pub fn plan_views(recipe: &Recipe, progress: &dyn Progress) -> Result<PlannedRecipe, PipelineError> {
     let mut scenes = Vec::new();
     for index in 0..recipe.spec.scenes.len() {
-        let built = build_scene(recipe, index, progress)?;
+        let built = build_scene(recipe, index, Checks::Off, progress)?;
         for dataset in &recipe.spec.datasets {
             let views = scene_views(recipe, dataset, index, &built, &|_| true);
             scenes.push(PlannedScene {

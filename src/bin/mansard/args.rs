@@ -60,6 +60,10 @@ pub enum Command {
         /// What the rules report, per feature and in total, as a .csv or .json file
         #[arg(long, value_name = "FILE")]
         reports: Option<PathBuf>,
+        /// Check every feature's meshes: a table by defect, NAME.validation.json beside the output, exit code 1 if
+        /// something is invalid
+        #[arg(long)]
+        validate: bool,
         #[command(flatten)]
         options: RecipeOptions,
         #[command(flatten)]

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use mansard::geodata::ledger::Outcome;
 use mansard::output::{OutputError, aside, write_bytes};
-use mansard::pipeline::{self, BuiltScene, Recipe, build_scene, load_recipe};
+use mansard::pipeline::{self, BuiltScene, Checks, Recipe, build_scene, load_recipe};
 use mansard::scene::export::to_glb;
 use mansard::source::SourceMap;
 
@@ -13,6 +13,7 @@ use crate::args::{RecipeOptions, WorkOptions};
 use crate::progress::Reporter;
 use crate::report::{self, Failure};
 use crate::reports;
+use crate::validate;
 
 impl RecipeOptions {
     /// The library's form of these options.
@@ -52,6 +53,7 @@ pub fn run(
     path: &Path,
     output: &Path,
     reports_file: Option<&PathBuf>,
+    checks: Checks,
     options: &RecipeOptions,
     work: &WorkOptions,
     reporter: &Reporter,
@@ -66,11 +68,14 @@ pub fn run(
     let mut failed = false;
     let mut all_reports = Vec::new();
     for index in 0..recipe.spec.scenes.len() {
-        let built = build_scene(&recipe, index, reporter).map_err(|e| report::failure(e, &sources))?;
+        let built = build_scene(&recipe, index, checks, reporter).map_err(|e| report::failure(e, &sources))?;
         let file = if several { scene_file(output, &built.record.name) } else { output.to_owned() };
         let bytes = to_glb(&built.scene, recipe.attribution()).map_err(|e| Failure::unable(e.to_string()))?;
         write_bytes(&file, &bytes).map_err(|e| Failure::unable(e.to_string()))?;
         failed |= !tell(&built, &sources, reporter);
+        if let Some(validation) = &built.validation {
+            failed |= !validate::write_and_tell(validation, &file, reporter)?;
+        }
         all_reports.push(built.reports);
         reporter.say(&format!("wrote {} ({} bytes)", file.display(), bytes.len()));
     }

@@ -16,10 +16,12 @@ mod report;
 mod reports;
 mod start_shapes;
 mod town;
+mod validate;
 
 use std::process::ExitCode;
 
 use clap::Parser;
+use mansard::pipeline::Checks;
 
 use args::{Args, Command};
 use progress::Reporter;
@@ -42,8 +44,9 @@ fn main() -> ExitCode {
         Command::Fmt { files, check, stdin } => fmt::run(&files, check, stdin, args.quiet),
         Command::Explain { code } => explain::run(&code),
         Command::Derive(derive) => derive::run(&derive, args.quiet),
-        Command::Build { recipe, output, reports, options, work } => {
-            build::run(&recipe, &output, reports.as_ref(), &options, &work, &reporter)
+        Command::Build { recipe, output, reports, validate, options, work } => {
+            let checks = if validate { Checks::All } else { Checks::Off };
+            build::run(&recipe, &output, reports.as_ref(), checks, &options, &work, &reporter)
         }
         Command::Render { recipe, output, views, reports, options, work } => {
             render::run(&recipe, &output, &views, reports.as_ref(), &options, &work, &reporter)

@@ -84,6 +84,8 @@ operations! {
     RoofHip "roofHip" ["F F? B?", "{byAngle byHeight} F F? B?"]
     RoofPyramid "roofPyramid" ["F", "{byAngle byHeight} F"]
     RoofRidge "roofRidge" ["{byAngle byHeight} F"]
+    // An extension of Mansard: the map's roof:shape, roof:height or roof:angle, roof:direction or roof:orientation.
+    RoofShape "roofShape" ["S {byAngle byHeight} F F{along across}?"]
     RoofShed "roofShed" ["F F?", "{byAngle byHeight} F F?"]
     Rotate "rotate" ["{abs rel} {scope pivot object world} F F F"]
     RotateScope "rotateScope" ["F F F"]

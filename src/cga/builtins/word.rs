@@ -51,7 +51,7 @@ words! {
     Scope "scope" Pivot "pivot" Object "object" World "world" Edge "edge" ScopeY "scope.y"
     Uv "uv" UvUniform "uvUniform" SeparatePerFace "separatePerFace" CollectiveAllFaces "collectiveAllFaces"
     ScopeOrigin "scopeOrigin" ScopeCenter "scopeCenter" Abs "abs" Rel "rel"
-    ByAngle "byAngle" ByHeight "byHeight"
+    ByAngle "byAngle" ByHeight "byHeight" Along "along" Across "across"
     Geometry "geometry" Used "used" Changed "changed"
     Surface "surface" Volume "volume" Uniform "uniform" Gaussian "gaussian" Center "center"
     Hard "hard" Soft "soft" Conform "conform"

@@ -104,3 +104,41 @@ fn a_cube_far_from_the_origin_keeps_its_volume() {
     mesh.positions.iter_mut().for_each(|p| *p += DVec3::new(1048576.0, 0.0, -2097152.0));
     assert_eq!(volume(&mesh), 1.0);
 }
+
+#[test]
+fn a_cube_through_a_cube_is_a_self_intersection() {
+    assert!(self_intersections(&cube(), 1e-9).is_empty());
+    let shifted = |by: DVec3| {
+        let mut both = cube();
+        let other = cube();
+        both.positions.extend(other.positions.iter().map(|p| *p + by));
+        both.faces.extend(other.faces.iter().cloned().map(|mut f| {
+            f.loops_mut().flatten().for_each(|v| *v += 8);
+            f
+        }));
+        self_intersections(&both, 1e-9)
+    };
+    // Corner in corner: three faces of each through three of the other.
+    assert_eq!(shifted(DVec3::new(0.5, 0.25, 0.125)).len(), 6);
+    // Face to face, edge to edge, corner to corner, apart.
+    for by in [DVec3::X, DVec3::new(1.0, 1.0, 0.0), DVec3::ONE, DVec3::new(0.3, 1.0, 0.3), DVec3::splat(3.0)] {
+        assert_eq!(shifted(by), [], "{by}");
+    }
+    // Two sides of each lie in planes of the other and face the same way.
+    assert!(shifted(DVec3::new(0.5, 0.0, 0.0)).contains(&(0, 6)));
+}
+
+#[test]
+fn defects_have_names_and_counts() {
+    assert_eq!(defects(&cube(), &[]), []);
+    let mut open = cube();
+    open.faces.remove(1);
+    assert_eq!(defects(&open, &[]), [(Defect::OpenEdge, 4)]);
+    assert_eq!(defects(&open, &[Defect::OpenEdge]), []);
+    let mut inside_out = cube();
+    inside_out.faces.iter_mut().for_each(flip_face);
+    assert_eq!(defects(&inside_out, &[]), [(Defect::NegativeVolume, 1)]);
+    let mut names: Vec<&str> = Defect::ALL.iter().map(|d| d.name()).collect();
+    names.dedup();
+    assert_eq!(names.len(), Defect::ALL.len());
+}

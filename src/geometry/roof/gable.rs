@@ -28,9 +28,7 @@ pub fn gable(
     let (out, beyond) = (check_overhang(overhang_x)?, check_overhang(overhang_y)?);
     slope.tangent(1.0)?;
     let mut plan = match index {
-        Some(index) if polygon.holes.is_empty() && is_convex(polygon) => {
-            upright_at(polygon, &opposite(polygon, index))?
-        }
+        Some(index) if polygon.holes.is_empty() && is_convex(polygon) => gabled_over(polygon, index)?,
         _ => gabled(polygon)?,
     };
     let tangent = slope.tangent(plan.highest())?;
@@ -51,11 +49,20 @@ pub fn gable(
 /// # Errors
 /// Slope or fraction outside their domain; those of the skeleton.
 pub fn half_hipped(polygon: &Polygon, slope: Slope, fraction: f64) -> Result<Roof, RoofError> {
+    half_hipped_over(gabled(polygon)?, polygon, slope, fraction)
+}
+
+/// The same over a gable roof of slope 1.
+pub(super) fn half_hipped_over(
+    mut plan: PlanRoof,
+    polygon: &Polygon,
+    slope: Slope,
+    fraction: f64,
+) -> Result<Roof, RoofError> {
     if !(0.0..=1.0).contains(&fraction) {
         return Err(RoofError::Fraction(fraction));
     }
     slope.tangent(1.0)?;
-    let mut plan = gabled(polygon)?;
     if fraction < 1.0 {
         clip_gables(&mut plan, polygon, fraction);
     }
@@ -141,6 +148,11 @@ fn upright_at(polygon: &Polygon, upright: &[usize]) -> Result<PlanRoof, RoofErro
     Ok(plan)
 }
 
+/// The gable roof of slope 1 over a convex outline, with pediments over an edge and the opposite one.
+pub(super) fn gabled_over(polygon: &Polygon, index: i64) -> Result<PlanRoof, RoofError> {
+    upright_at(polygon, &opposite(polygon, index))
+}
+
 /// The edges that carry the pediments for an index: it and the opposite one; on a triangle the one opposite to vertex
 /// `index`, where the ridge ends.
 fn opposite(polygon: &Polygon, index: i64) -> Vec<usize> {
@@ -152,7 +164,7 @@ fn opposite(polygon: &Polygon, index: i64) -> Vec<usize> {
     }
 }
 
-fn is_convex(polygon: &Polygon) -> bool {
+pub(super) fn is_convex(polygon: &Polygon) -> bool {
     let Some((low, high)) = polygon.bounds() else { return false };
     let Some(grid) = crate::geometry::grid::Grid::over(low, high) else { return false };
     let points: Vec<[i64; 2]> = polygon.outer.iter().map(|&p| grid.snap(p)).collect();

@@ -3,24 +3,34 @@
 
 mod gable;
 mod hip;
+mod onion;
+mod osm;
 mod overhang;
 mod plan;
 mod profile;
 mod pyramid;
 mod ridge;
+mod saltbox;
 mod shed;
+mod sound;
 
 #[cfg(test)]
 mod tests;
 
 pub use self::gable::{gable, half_hipped};
 pub use self::hip::hip;
+pub use self::onion::onion;
+pub use self::osm::{Facing, RoofShape};
 pub use self::profile::{Profile, dome, gambrel, mansard, round};
 pub use self::pyramid::pyramid;
 pub use self::ridge::ridge;
+pub use self::saltbox::saltbox;
 pub use self::shed::{shed, skillion};
+pub use self::sound::{FellBack, SoundRoof, sound};
 
+use self::plan::{PlanFace, PlanRoof};
 use crate::geometry::mesh::Mesh;
+use crate::geometry::polygon::Polygon;
 use crate::geometry::skeleton::SkeletonError;
 
 /// How steep: CGA `byAngle` (degrees) or `byHeight` (metres from the polygon to the highest point, overhang not counted).
@@ -77,6 +87,8 @@ pub enum RoofError {
     Direction(glam::DVec2),
     #[error("the fraction {0} is not between 0 and 1")]
     Fraction(f64),
+    #[error("not every edge of the outline can be seen from its middle")]
+    HiddenEdge,
     #[error(transparent)]
     Skeleton(#[from] SkeletonError),
 }
@@ -93,6 +105,20 @@ impl Slope {
             Slope::Height(height) => Err(RoofError::Height(height)),
         }
     }
+}
+
+/// The polygon itself, facing up: the one roof that is no closed body.
+pub fn flat(polygon: &Polygon) -> Roof {
+    let mut plan = PlanRoof::of_vertices(polygon);
+    let mut first = 0;
+    let mut rings = polygon.rings().map(|ring| {
+        let ids: Vec<u32> = (first..first + ring.len() as u32).collect();
+        first += ring.len() as u32;
+        ids
+    });
+    let ring = rings.next().unwrap_or_default();
+    plan.faces.push(PlanFace { part: RoofPart::Top { edge: None }, ring, holes: rings.collect() });
+    plan.into_sheet()
 }
 
 /// A length that must be finite and not negative.

@@ -66,13 +66,18 @@ impl PlanRoof {
     }
 
     /// Add the bottom, leave out nodes no face uses, and go to space: plan (x, y) becomes (x, height, -y).
-    pub fn into_roof(self, polygon: &Polygon) -> Roof {
+    pub fn into_roof(mut self, polygon: &Polygon) -> Roof {
+        self.faces.insert(0, bottom(polygon));
+        self.into_sheet()
+    }
+
+    /// The same without a bottom.
+    pub fn into_sheet(self) -> Roof {
         let PlanRoof { nodes, faces, warnings } = self;
-        let bottom = bottom(polygon);
-        let mut mesh = Mesh { positions: Vec::with_capacity(nodes.len()), faces: Vec::with_capacity(faces.len() + 1) };
-        let mut parts = Vec::with_capacity(faces.len() + 1);
+        let mut mesh = Mesh { positions: Vec::with_capacity(nodes.len()), faces: Vec::with_capacity(faces.len()) };
+        let mut parts = Vec::with_capacity(faces.len());
         let mut number = vec![u32::MAX; nodes.len()];
-        for face in std::iter::once(&bottom).chain(&faces) {
+        for face in &faces {
             let mut placed = |ring: &Vec<u32>| -> Loop {
                 ring.iter().map(|&id| number_of(&mut number, &mut mesh.positions, &nodes, id)).collect()
             };

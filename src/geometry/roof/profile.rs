@@ -57,6 +57,21 @@ impl Profile {
         Ok(Profile { points: (0..=pieces).map(point).collect() })
     }
 
+    /// Two straight pieces over a reach and a height of 1, that meet at (share of the reach, share of the height).
+    pub(super) fn bent(at: (f64, f64)) -> Profile {
+        Profile { points: vec![(0.0, 0.0), at, (1.0, 1.0)] }
+    }
+
+    /// A quarter of a circle over a reach and a height of 1.
+    pub(super) fn quarter_circle(pieces: u32) -> Profile {
+        Profile::ellipse(1.0, 1.0, pieces).expect("a height of 1 is in its domain")
+    }
+
+    /// Stretched along both axes.
+    fn stretched(&self, reach: f64, height: f64) -> Profile {
+        Profile { points: self.points.iter().map(|&(d, h)| (d * reach, h * height)).collect() }
+    }
+
     fn height(&self, distance: f64) -> f64 {
         for w in self.points.windows(2) {
             let ((d0, h0), (d1, h1)) = (w[0], w[1]);
@@ -106,6 +121,13 @@ pub fn round(polygon: &Polygon, height: f64, pieces: u32) -> Result<Roof, RoofEr
     let plan = gabled(polygon)?;
     let profile = Profile::ellipse(height, plan.highest(), pieces)?;
     Ok(bend(plan, &profile).into_roof(polygon))
+}
+
+/// A roof of slope 1 bent by a profile over a reach and a height of 1; an angle is that from the eaves to the top.
+pub(super) fn over(plan: PlanRoof, slope: Slope, profile: &Profile) -> Result<PlanRoof, RoofError> {
+    let reach = plan.highest();
+    let height = slope.tangent(reach)? * reach;
+    Ok(bend(plan, &profile.stretched(reach, height)))
 }
 
 /// Cut a roof of slope 1 at the breaks of the profile and put its nodes on the profile's heights.

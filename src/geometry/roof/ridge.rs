@@ -20,6 +20,11 @@ use crate::geometry::skeleton::SkeletonError;
 /// Slope outside its domain; a direction without length.
 pub fn ridge(polygon: &Polygon, slope: Slope, along: DVec2) -> Result<Roof, RoofError> {
     let across = along.try_normalize().ok_or(RoofError::Direction(along))?.perp();
+    crested(polygon, slope, across, 0.5)
+}
+
+/// Planes of one slope that rise in direction `across` (length 1) over `share` of the polygon's extent and fall beyond.
+pub(super) fn crested(polygon: &Polygon, slope: Slope, across: DVec2, share: f64) -> Result<Roof, RoofError> {
     let Some(&origin) = polygon.outer.first() else { return Err(SkeletonError::TooFewPoints.into()) };
     let extent =
         |f: fn(f64, f64) -> f64, start: f64| polygon.outer.iter().map(|&p| across.dot(p - origin)).fold(start, f);
@@ -27,16 +32,18 @@ pub fn ridge(polygon: &Polygon, slope: Slope, along: DVec2) -> Result<Roof, Roof
     if high.is_nan() || low.is_nan() || high <= low {
         return Err(SkeletonError::TooFewPoints.into());
     }
-    let (middle, half) = ((low + high) / 2.0, (high - low) / 2.0);
-    let tangent = slope.tangent(half)?;
-    let height = |p: DVec2| match half - (across.dot(p - origin) - middle).abs() {
-        h if h <= 1e-9 * half => 0.0,
+    let reach = (high - low) * share;
+    let crest = low + reach;
+    let tangent = slope.tangent(reach)?;
+    let height = |p: DVec2| match reach - (across.dot(p - origin) - crest).abs() {
+        h if h <= 1e-9 * reach => 0.0,
         h => h * tangent,
     };
     let mut welded = Welded::default();
-    for halves in cut_at(polygon, across, across.dot(origin) + middle) {
+    for halves in cut_at(polygon, across, across.dot(origin) + crest) {
         welded.add(&halves);
     }
+    welded.divide(across.perp(), |p| height(p) >= reach * tangent * (1.0 - 1e-9));
     Ok(welded.into_roof(polygon, height))
 }
 
@@ -82,6 +89,31 @@ impl Welded {
                 loops.push(ring.iter().map(|v| self.id(at(v))).collect());
             }
             self.faces.push(loops);
+        }
+    }
+
+    /// Corners on the crest divide the edges along it: a corner that only touches it is missing on its other side.
+    fn divide(&mut self, along: DVec2, is_crest: impl Fn(DVec2) -> bool) {
+        let points = &self.points;
+        let at = |id: u32| along.dot(points[id as usize]);
+        let mut crest: Vec<u32> = (0..points.len() as u32).filter(|&id| is_crest(points[id as usize])).collect();
+        crest.sort_by(|&p, &q| at(p).total_cmp(&at(q)));
+        for ring in self.faces.iter_mut().flatten() {
+            let mut divided = Vec::with_capacity(ring.len());
+            for (k, &p) in ring.iter().enumerate() {
+                divided.push(p);
+                let q = ring[(k + 1) % ring.len()];
+                if crest.contains(&p) && crest.contains(&q) {
+                    let (low, high) = (at(p).min(at(q)), at(p).max(at(q)));
+                    let between = crest.iter().copied().filter(|&id| at(id) > low && at(id) < high);
+                    let first = divided.len();
+                    divided.extend(between);
+                    if at(p) > at(q) {
+                        divided[first..].reverse();
+                    }
+                }
+            }
+            *ring = divided;
         }
     }
 

@@ -285,3 +285,103 @@ fn even_ridges() {
     heights.dedup_by(|a, b| (*a - *b).abs() < 1e-9);
     assert_eq!(heights.len(), 1, "{heights:?}");
 }
+
+#[test]
+fn an_onion_bulges_and_ends_in_a_point() {
+    let tower = rectangle(4.0, 4.0);
+    let roof = onion(&tower, Slope::Height(6.0)).unwrap();
+    assert_sound(&roof, &tower);
+    assert_eq!(mesh_checks::defects(&roof.mesh, &[]), []);
+    assert!((size(&roof) - DVec3::new(4.72, 6.0, 4.72)).length() < 1e-9, "{}", size(&roof));
+    let skewed = polygon(&[(0.0, 0.0), (5.0, 1.0), (4.0, 5.0), (-1.0, 3.0)], &[]);
+    assert_eq!(mesh_checks::defects(&onion(&skewed, Slope::Angle(70.0)).unwrap().mesh, &[]), []);
+    assert_eq!(onion(&u_12(), Slope::Height(6.0)), Err(RoofError::HiddenEdge));
+    assert_eq!(onion(&courtyard(), Slope::Height(6.0)).unwrap().warnings, [RoofWarning::HolesDropped]);
+}
+
+#[test]
+fn a_saltbox_has_its_ridge_off_the_middle() {
+    let r = rectangle(10.0, 6.0);
+    let roof = saltbox(&r, Slope::Height(4.0), DVec2::NEG_Y).unwrap();
+    assert_sound(&roof, &r);
+    // Cross-section: 4 m up over 4 m, 2 m down over the other 2 m.
+    close(volume(&roof), 10.0 * (4.0 * 4.0 / 2.0 + 2.0 * (4.0 + 2.0) / 2.0));
+    for shape in [u_12(), courtyard(), l_10()] {
+        let roof = saltbox(&shape, Slope::Angle(30.0), DVec2::new(1.0, 0.4)).unwrap();
+        assert_eq!(mesh_checks::defects(&roof.mesh, &[]), []);
+    }
+}
+
+#[test]
+fn every_roof_shape_of_the_map_is_sound_on_every_outline() {
+    for kind in RoofShape::ALL {
+        assert_eq!(RoofShape::from_name(kind.name()), Some(kind));
+        for shape in [rectangle(10.0, 6.0), rectangle(8.0, 8.0), l_10(), u_12(), courtyard()] {
+            for facing in [Facing::Natural, Facing::Downhill(DVec2::new(0.9, 0.1)), Facing::Along, Facing::Across] {
+                for slope in [Slope::Height(3.0), Slope::Angle(35.0), Slope::Height(0.0)] {
+                    let first = kind.build(&shape, slope, facing);
+                    let made = sound(&shape, slope, &[], (kind.name(), first)).unwrap();
+                    let hidden = matches!(kind, RoofShape::Onion | RoofShape::Pyramidal) && !made.steps.is_empty();
+                    assert!(made.steps.is_empty() || hidden, "{kind:?} {facing:?} {slope:?}: {:?}", made.steps);
+                    let Some(roof) = made.roof else { continue };
+                    assert_eq!(mesh_checks::defects(&roof.mesh, &[]), [], "{kind:?} {facing:?} {slope:?}");
+                    if slope == Slope::Height(3.0) {
+                        close(size(&roof).y, 3.0);
+                    }
+                }
+            }
+        }
+    }
+    assert_eq!(RoofShape::from_name("Half_Hipped"), Some(RoofShape::HalfHipped));
+    assert_eq!(RoofShape::from_name("lean_to"), Some(RoofShape::Skillion));
+    assert_eq!(RoofShape::from_name("gable d"), None);
+}
+
+#[test]
+fn ridges_run_across_the_direction_that_the_map_gives() {
+    let r = rectangle(10.0, 6.0);
+    let ends = |facing: Facing| {
+        let roof = RoofShape::Gabled.build(&r, Slope::Height(2.0), facing).unwrap().unwrap();
+        let side = |p: &RoofPart| if let RoofPart::Side { edge } = p { Some(*edge) } else { None };
+        roof.parts.iter().filter_map(side).collect::<Vec<_>>()
+    };
+    assert_eq!(ends(Facing::Natural), [1, 3]);
+    assert_eq!(ends(Facing::Along), [1, 3]);
+    assert_eq!(ends(Facing::Across), [0, 2]);
+    // Looking east: the ridge runs north, and ends over the long edges.
+    assert_eq!(ends(Facing::Downhill(DVec2::new(1.0, 0.2))), [0, 2]);
+    assert_eq!(ends(Facing::Downhill(DVec2::new(0.2, -1.0))), [1, 3]);
+    // On a concave outline one ridge runs over everything.
+    let roof = RoofShape::Gabled.build(&u_12(), Slope::Height(2.0), Facing::Downhill(DVec2::X)).unwrap().unwrap();
+    assert!(roof.mesh.positions.iter().filter(|p| p.y == 2.0).all(|p| (p.x - 6.0).abs() < 1e-9));
+}
+
+#[test]
+fn a_roof_with_a_defect_falls_back_step_by_step() {
+    let broken = |polygon: &Polygon| {
+        let mut roof = hip(polygon, Slope::Height(3.0), 0.0, false).unwrap();
+        roof.mesh.faces.pop();
+        roof.parts.pop();
+        Ok(Some(roof))
+    };
+    let r = rectangle(10.0, 6.0);
+    let made = sound(&r, Slope::Height(3.0), &[], ("the broken roof", broken(&r))).unwrap();
+    assert_eq!(made.roof, hip(&r, Slope::Height(3.0), 0.0, false).ok());
+    let step = FellBack { from: "the broken roof", why: "open edge (3)".into(), to: "a hip roof" };
+    assert_eq!(made.steps, [step]);
+    let tower = sound(&u_12(), Slope::Height(3.0), &[], ("the onion", onion(&u_12(), Slope::Height(3.0)).map(Some)));
+    assert_eq!(tower.unwrap().steps.len(), 1);
+    // A bow-tie has no skeleton: its rectangle carries the roof.
+    let bow = polygon(&[(0.0, 0.0), (10.0, 6.0), (10.0, 0.0), (0.0, 6.0)], &[]);
+    let made =
+        sound(&bow, Slope::Height(3.0), &[], ("a hip roof", hip(&bow, Slope::Height(3.0), 0.0, false).map(Some)));
+    let made = made.unwrap();
+    assert_eq!(made.steps.last().map(|s| s.to), Some("a hip roof over the bounding rectangle"), "{:?}", made.steps);
+    close(size(made.roof.as_ref().unwrap()).x, 10.0);
+    let line = polygon(&[(0.0, 0.0), (10.0, 0.0), (5.0, 0.0)], &[]);
+    let made =
+        sound(&line, Slope::Height(3.0), &[], ("a hip roof", hip(&line, Slope::Height(3.0), 0.0, false).map(Some)));
+    assert_eq!(made.unwrap().roof, None);
+    let steep = sound(&r, Slope::Angle(95.0), &[], ("a hip roof", hip(&r, Slope::Angle(95.0), 0.0, false).map(Some)));
+    assert_eq!(steep, Err(RoofError::Angle(95.0)));
+}

@@ -38,6 +38,7 @@ mod reset_geometry;
 mod reverse_normals;
 mod roof;
 mod roof_edges;
+mod roof_shape;
 mod scatter;
 mod scatter_gauss;
 mod scatter_solid;
@@ -119,6 +120,7 @@ pub fn apply(
         O::RoofHip => roof::hip(run, &args, shape),
         O::RoofPyramid => roof::pyramid(run, &args, shape),
         O::RoofShed => roof::shed(run, &args, shape),
+        O::RoofShape => roof_shape::apply(run, &args, shape),
         O::RoofRidge => roof::ridge(run, &args, shape),
         O::PrimitiveCube => primitive::cube(run, &args, shape),
         O::PrimitiveQuad => primitive::quad(run, &args, shape),

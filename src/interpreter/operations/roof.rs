@@ -10,7 +10,8 @@ use super::args::Args;
 use super::auto_tags::{self, Sides};
 use super::extrude::replace_upright;
 use crate::cga::builtins::Word;
-use crate::geometry::roof::{self, Roof, RoofError, RoofWarning, Slope};
+use crate::geometry::mesh_checks::Defect;
+use crate::geometry::roof::{self, FellBack, Roof, RoofError, RoofWarning, Slope, SoundRoof};
 use crate::geometry::{Mesh, PlaneFrame, Polygon};
 
 /// `(angle, ...)`, `(byAngle | byHeight, value, ...)`: the slope and the position of the next argument.
@@ -26,7 +27,8 @@ pub fn hip(run: &mut Derivation, args: &Args, shape: &mut Shape) {
     let (slope, next) = slope(run, args);
     let overhang = args.float_or(run, next, 0.0);
     let even = args.bool(next + 1);
-    build(run, args, shape, Sides::Plain, |polygon, _| roof::hip(polygon, slope, overhang, even));
+    let wanted = Wanted { name: "the hip roof", slope, by_design: by_design(overhang, even), sides: Sides::Plain };
+    build(run, args, shape, wanted, |polygon, _| roof::hip(polygon, slope, overhang, even).map(Some));
 }
 
 pub fn gable(run: &mut Derivation, args: &Args, shape: &mut Shape) {
@@ -35,38 +37,65 @@ pub fn gable(run: &mut Derivation, args: &Args, shape: &mut Shape) {
     let overhang_y = args.float_or(run, next + 1, 0.0);
     let even = args.bool(next + 2);
     let index = args.float(run, next + 3).map(|x| x as i64);
-    build(run, args, shape, Sides::Plain, |polygon, _| {
-        roof::gable(polygon, slope, overhang_x, overhang_y, even, index)
+    let by_design = by_design(overhang_x.max(overhang_y), even);
+    let wanted = Wanted { name: "the gable roof", slope, by_design, sides: Sides::Plain };
+    build(run, args, shape, wanted, |polygon, _| {
+        roof::gable(polygon, slope, overhang_x, overhang_y, even, index).map(Some)
     });
 }
 
 pub fn pyramid(run: &mut Derivation, args: &Args, shape: &mut Shape) {
     let (slope, _) = slope(run, args);
-    build(run, args, shape, Sides::Plain, |polygon, _| roof::pyramid(polygon, slope));
+    // Over concave outlines its faces overlap, with a warning (compatibility notes).
+    let wanted = Wanted { name: "the pyramid", slope, by_design: &[Defect::SelfIntersection], sides: Sides::Plain };
+    build(run, args, shape, wanted, |polygon, _| roof::pyramid(polygon, slope).map(Some));
 }
 
 pub fn shed(run: &mut Derivation, args: &Args, shape: &mut Shape) {
     let (slope, next) = slope(run, args);
     let index = args.float_or(run, next, 0.0) as i64;
-    build(run, args, shape, Sides::OuterAndInner, |polygon, _| roof::shed(polygon, slope, index));
+    let wanted = Wanted { name: "the shed roof", slope, by_design: &[], sides: Sides::OuterAndInner };
+    build(run, args, shape, wanted, |polygon, _| roof::shed(polygon, slope, index).map(Some));
 }
 
 pub fn ridge(run: &mut Derivation, args: &Args, shape: &mut Shape) {
     let (slope, _) = slope(run, args);
     let along = shape.scope.frame.axes.x_axis;
-    build(run, args, shape, Sides::OuterAndInner, |polygon, frame| {
+    let wanted = Wanted { name: "the ridge roof", slope, by_design: &[], sides: Sides::OuterAndInner };
+    build(run, args, shape, wanted, |polygon, frame| {
         let plan = DVec2::new(along.dot(frame.u), along.dot(frame.v));
-        roof::ridge(polygon, slope, plan.try_normalize().unwrap_or(DVec2::X))
+        roof::ridge(polygon, slope, plan.try_normalize().unwrap_or(DVec2::X)).map(Some)
     });
 }
 
-/// Roofs every face; a face that cannot be roofed keeps its shape with a warning.
-fn build(
+/// Planes continue beyond the walls as sheets, so roofs with overhangs have open edges; levelled ridges bend planes.
+fn by_design(overhang: f64, even: bool) -> &'static [Defect] {
+    use Defect as D;
+    match (overhang > 0.0, even) {
+        (false, false) => &[],
+        (false, true) => &[D::NonPlanarFace, D::SelfIntersection, D::DegenerateTriangle],
+        (true, false) => &[D::OpenEdge, D::SelfIntersection, D::NegativeVolume],
+        (true, true) => &[D::OpenEdge, D::SelfIntersection, D::NegativeVolume, D::NonPlanarFace, D::DegenerateTriangle],
+    }
+}
+
+/// What is asked for, for checks and messages.
+pub(super) struct Wanted {
+    pub name: &'static str,
+    pub slope: Slope,
+    /// Defects that belong to the roof.
+    pub by_design: &'static [Defect],
+    pub sides: Sides,
+}
+
+/// Roofs every face. Where the roof has a defect a simpler one stands in, with a warning; `None` is a flat roof: the
+/// face itself. If what is asked for cannot be, the shape stays, with a warning.
+pub(super) fn build(
     run: &mut Derivation,
     args: &Args,
     shape: &mut Shape,
-    sides: Sides,
-    roofed: impl Fn(&Polygon, &PlaneFrame) -> Result<Roof, RoofError>,
+    wanted: Wanted,
+    roofed: impl Fn(&Polygon, &PlaneFrame) -> Result<Option<Roof>, RoofError>,
 ) {
     shape.bake();
     let source = &shape.form.mesh;
@@ -75,8 +104,12 @@ fn build(
     let (mut sources, mut parts) = (Vec::new(), Vec::new());
     for (number, face) in source.faces.iter().enumerate() {
         let Some(frame) = PlaneFrame::of_face(source, face) else { continue };
-        match roofed(&frame.face_to_plan(source, face), &frame) {
-            Ok(roof) => {
+        let polygon = frame.face_to_plan(source, face);
+        let first = (wanted.name, roofed(&polygon, &frame));
+        match roof::sound(&polygon, wanted.slope, wanted.by_design, first) {
+            Ok(SoundRoof { roof, steps }) => {
+                fell_back(run, args, &steps);
+                let roof = roof.unwrap_or_else(|| roof::flat(&polygon));
                 warn(run, args, &roof.warnings);
                 append(&mut mesh, roof.mesh, &frame);
                 sources.resize(mesh.faces.len(), Some(number as u32));
@@ -89,8 +122,17 @@ fn build(
         }
     }
     let mut form: Form = shape.form.derived(mesh, sources.into_iter());
-    auto_tags::roof(run.program, &shape.form, &mut form, sides, &parts);
+    auto_tags::roof(run.program, &shape.form, &mut form, wanted.sides, &parts);
     replace_upright(shape, form, up, false);
+}
+
+/// All steps in one message: `the onion has self-intersection (3), so a hip roof stands in`.
+fn fell_back(run: &mut Derivation, args: &Args, steps: &[FellBack]) {
+    let Some(last) = steps.last() else { return };
+    run.warn("cga::roof-fallback", args.span, || {
+        let why: Vec<String> = steps.iter().map(|s| format!("{} failed: {}", s.from, s.why)).collect();
+        format!("{} stands in; {}", last.to, why.join("; "))
+    });
 }
 
 /// Adds a roof given over its polygon: plan (x, y) at height h is local (x, h, -y).

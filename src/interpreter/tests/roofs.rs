@@ -59,3 +59,67 @@ fn a_steep_angle_is_refused_with_a_warning() {
     assert_eq!(tree.leaves[0].mesh.faces.len(), 1);
     assert_eq!(tree.diagnostics.iter().map(|d| d.code).collect::<Vec<_>>(), ["cga::roof"]);
 }
+
+#[test]
+fn roofs_of_the_map_by_name() {
+    for name in ["gabled", "Hipped", "half_hipped", "pyramidal", "cone", "mansard", "gambrel", "dome", "onion", "round"]
+    {
+        let tree = run(&format!("Lot --> roofShape(\"{name}\", byHeight, 3) Roof."), SMALL);
+        let mesh = &tree.leaves[0].mesh;
+        assert_eq!(crate::geometry::mesh_checks::defects(mesh, &[]), [], "{name}");
+        assert_eq!(mesh.bounds().map(|(low, high)| (low.y, high.y)), Some((0.0, 3.0)), "{name}");
+        assert_eq!(tree.diagnostics.iter().count(), 0, "{name}");
+    }
+    assert_eq!(faces("roofShape(\"skillion\", byAngle, 20) A."), 5);
+    assert_eq!(faces("roofShape(\"flat\", byHeight, 0) A."), 1);
+    size("roofShape(\"hipped\", byAngle, 45)", [10.0, 3.0, 6.0]);
+    // From eaves to ridge on bent roofs.
+    size("roofShape(\"dome\", byAngle, 45)", [10.0, 3.0, 6.0]);
+}
+
+#[test]
+fn directions_are_clockwise_from_north() {
+    // Downhill to the north (-z): high in the south.
+    let tree = run("Lot --> roofShape(\"skillion\", byHeight, 2, 0) A.", SMALL);
+    assert!(tree.leaves[0].mesh.positions.iter().filter(|p| p.y > 1.9).all(|p| p.z == 0.0));
+    let tree = run("Lot --> roofShape(\"skillion\", byHeight, 2, 90) A.", SMALL);
+    assert!(tree.leaves[0].mesh.positions.iter().filter(|p| p.y > 1.9).all(|p| p.x == 0.0));
+    let pediments = |how: &str| {
+        let tree = run(
+            &format!("Lot --> roofShape(\"gabled\", byHeight, 2{how}) comp(f) {{ vertical : Gable. | all : NIL }}"),
+            SMALL,
+        );
+        areas(&tree, "Gable")
+    };
+    for how in ["", ", 180", ", 3", ", along"] {
+        near(&pediments(how), &[6.0; 2]);
+    }
+    for how in [", 90", ", -80", ", across"] {
+        near(&pediments(how), &[10.0; 2]);
+    }
+}
+
+#[test]
+fn an_unknown_roof_is_flat_and_the_meant_one_is_named() {
+    let tree = derived("Lot --> roofShape(\"gabeld\", byHeight, 2) A.", ground(SMALL));
+    assert_eq!(tree.leaves[0].mesh.faces.len(), 1);
+    let said: Vec<_> = tree.diagnostics.iter().map(|d| (d.code, d.message.clone())).collect();
+    assert_eq!(said.len(), 1);
+    assert_eq!(said[0].0, "cga::roof-shape");
+    assert!(said[0].1.contains("did you mean \"gabled\"?"), "{}", said[0].1);
+}
+
+#[test]
+fn a_roof_that_cannot_stand_falls_back_to_a_hip() {
+    const CEE: &[(f64, f64)] =
+        &[(0.0, 0.0), (10.0, 0.0), (10.0, -1.0), (1.0, -1.0), (1.0, -7.0), (10.0, -7.0), (10.0, -8.0), (0.0, -8.0)];
+    for name in ["onion", "pyramidal"] {
+        let tree = derived(&format!("Lot --> roofShape(\"{name}\", byHeight, 3) A."), ground(CEE));
+        let mesh = &tree.leaves[0].mesh;
+        assert_eq!(crate::geometry::mesh_checks::defects(mesh, &[]), [], "{name}");
+        assert_eq!(mesh.bounds().map(|b| b.1.y), Some(3.0), "{name}");
+        let said: Vec<_> = tree.diagnostics.iter().map(|d| d.message.clone()).collect();
+        assert!(said[0].starts_with("a hip roof stands in; the "), "{said:?}");
+        assert_eq!(tree.diagnostics.iter().map(|d| d.code).collect::<Vec<_>>(), ["cga::roof-fallback"]);
+    }
+}
