@@ -116,7 +116,7 @@ impl RoofShape {
         }
         let bend = || Profile::bent(BEND);
         let barrel = || Profile::quarter_circle(BANDS);
-        let hips = || Ok::<_, RoofError>(PlanRoof::of_skeleton(&skeleton(polygon, None)?));
+        let hips = || Ok::<_, RoofError>(PlanRoof::of_skeleton(skeleton(polygon, None)?));
         let roof = match self {
             RoofShape::Flat => return Ok(None),
             RoofShape::Gabled => match ridge_direction(polygon, facing)? {
