@@ -138,7 +138,7 @@ impl Welded {
                 top[id] = (plan.nodes.len() - 1) as u32;
             }
         }
-        let pieces = Pieces { welded: &self, polygon, bottom: &bottom, top: &top };
+        let pieces = Pieces { welded: &self, polygon, base: &base, top: &top };
         pieces.add_walls(&mut plan);
         for loops in &self.faces {
             let mut rings = loops.iter().map(|r| r.iter().map(|&id| top[id as usize]).collect::<Vec<u32>>());
@@ -152,7 +152,8 @@ impl Welded {
 struct Pieces<'a> {
     welded: &'a Welded,
     polygon: &'a Polygon,
-    bottom: &'a [u32],
+    /// What each vertex of the polygon was welded to; rings that touch have several at one place.
+    base: &'a [u32],
     top: &'a [u32],
 }
 
@@ -163,7 +164,7 @@ impl Pieces<'_> {
         for ring in self.welded.faces.iter().flatten() {
             next.extend((0..ring.len()).map(|k| ((ring[k], ring[(k + 1) % ring.len()]), ())));
         }
-        let id = |vertex: u32| self.bottom.iter().position(|&b| b == vertex).expect("every vertex was entered") as u32;
+        let id = |vertex: u32| self.base[vertex as usize];
         let ends = super::plan::Edges::of(self.polygon).ends;
         for (edge, &(start, end)) in ends.iter().enumerate() {
             let (s, e) = (id(start), id(end));

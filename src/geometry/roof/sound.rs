@@ -26,6 +26,9 @@ pub struct SoundRoof {
     pub steps: Vec<FellBack>,
 }
 
+/// Makes a roof that stands in for another; `None` is a flat one.
+type Simpler = fn(&Polygon, Slope) -> Result<Option<Roof>, RoofError>;
+
 /// The roof if it has no defect but those `by_design`, else the first of the simpler ones that has none.
 ///
 /// # Errors
@@ -38,7 +41,7 @@ pub fn sound(
 ) -> Result<SoundRoof, RoofError> {
     let mut steps: Vec<FellBack> = Vec::new();
     let (mut from, mut roof) = (name, first);
-    let simpler: [(&str, fn(&Polygon, Slope) -> Result<Option<Roof>, RoofError>); 3] = [
+    let simpler: [(&str, Simpler); 3] = [
         ("a hip roof", |p, s| hip(p, s, 0.0, false).map(Some)),
         ("a hip roof over the bounding rectangle", |p, s| hip(&around(p), s, 0.0, false).map(Some)),
         ("a flat roof", |_, _| Ok(None)),

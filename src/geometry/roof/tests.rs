@@ -385,3 +385,12 @@ fn a_roof_with_a_defect_falls_back_step_by_step() {
     let steep = sound(&r, Slope::Angle(95.0), &[], ("a hip roof", hip(&r, Slope::Angle(95.0), 0.0, false).map(Some)));
     assert_eq!(steep, Err(RoofError::Angle(95.0)));
 }
+
+/// Found by the fuzz target `evaluate`: an outline that touches itself has two vertices at one place.
+#[test]
+fn a_ridge_over_an_outline_that_touches_itself() {
+    let outer = [(0, 0), (4, 0), (5, 3), (6, 0), (10, 0), (10, 6), (6, 6), (5, 3), (4, 6), (0, 6)];
+    let outer = outer.map(|(x, y)| DVec2::new(f64::from(x), f64::from(y))).to_vec();
+    let roof = ridge(&Polygon { outer, holes: Vec::new() }, Slope::Angle(45.0), DVec2::X).unwrap();
+    assert!((volume(&roof) - 84.0).abs() < 1e-9, "{}", volume(&roof));
+}
