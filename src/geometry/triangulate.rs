@@ -2,6 +2,8 @@
 //!
 //! Corners are numbered over the loops in order: the outer loop first, then the holes.
 
+mod rounded_ears;
+
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
@@ -15,6 +17,9 @@ use super::{Face, Mesh, Polygon};
 /// Outlines up to this long are cut by ears (2 to 4 microseconds for 4 to 30 corners); longer ones and those with
 /// holes go through the constrained Delaunay triangulation (numerics section 6).
 const LONGEST_FOR_EARS: usize = 64;
+
+/// Outlines that cross themselves by a rounding are cut up to this length, in cubic time.
+const LONGEST_FOR_ROUNDED: usize = 300;
 
 /// Triangles of a plan polygon: n + 2 h - 2 of them, counter-clockwise, covering it exactly.
 /// Input that is no polygon (too few points, no area, crossing edges) gives fewer or none.
@@ -77,7 +82,11 @@ pub(super) fn triangulate_rings(rings: &[&[DVec2]]) -> Vec<[u32; 3]> {
     {
         return triangles;
     }
-    delaunay(rings)
+    let triangles = delaunay(rings);
+    if holes.is_empty() && triangles.len() + 2 < outer.len() && outer.len() <= LONGEST_FOR_ROUNDED {
+        return rounded_ears::cut(outer).unwrap_or(triangles);
+    }
+    triangles
 }
 
 /// Cuts ears until a triangle is left (Meisters 1975). An ear turns left strictly and no other corner lies in it or on

@@ -46,7 +46,8 @@ fn ways(data: &OsmData, project: &dyn Fn(f64, f64) -> DVec2) -> Vec<(String, Vec
     for way in data.ways() {
         let closed = way.refs.len() > 3 && way.refs.first() == way.refs.last();
         if closed && (is_building("building", &way) || is_building("building:part", &way)) {
-            let nodes = way.refs.iter().filter_map(|&id| data.node(id)).map(|p| p.degrees());
+            // The last reference repeats the first: that is how OpenStreetMap closes a way.
+            let nodes = way.refs[1..].iter().filter_map(|&id| data.node(id)).map(|p| p.degrees());
             found.push((format!("way/{}", way.id), vec![nodes.map(|(lon, lat)| project(lon, lat)).collect()]));
         }
     }

@@ -88,7 +88,9 @@ struct Table {
 
 impl Table {
     fn new(title: &str) -> Table {
-        println!("\n| {title} | footprints | ok | repaired | rejected | fallback | invalid | area error | mean µs | greatest ms |");
+        println!(
+            "\n| {title} | footprints | ok | repaired | rejected | fallback | invalid | area error | mean µs | greatest ms |"
+        );
         println!("| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |");
         Table { total: Row::default() }
     }
@@ -152,9 +154,10 @@ fn rings(feature: &Value) -> Vec<Ring> {
     let number = |v: &Value| v.as_f64().expect("a coordinate");
     let point = |v: &Value| DVec2::new(number(&v[0]), number(&v[1]));
     let ring = |r: &Value| r.as_array().expect("a ring").iter().map(point).collect();
-    let mut rings: Vec<Ring> =
-        feature["geometry"]["coordinates"].as_array().expect("rings").iter().map(ring).collect();
-    rings.iter_mut().for_each(|r| drop(r.pop()));
+    let mut rings: Vec<Ring> = feature["geometry"]["coordinates"].as_array().expect("rings").iter().map(ring).collect();
+    for r in &mut rings {
+        r.pop();
+    }
     for change in feature["properties"]["replace"].as_array().into_iter().flatten() {
         let at = |i: usize| change[i].as_u64().expect("an index") as usize;
         rings[at(0)][at(1)][at(2)] = change[3].as_str().expect("a value").parse().expect("NaN or Infinity");
