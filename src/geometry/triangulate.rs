@@ -12,6 +12,7 @@ use spade::handles::{FaceHandle, InnerTag};
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
 
 use super::orientation::orientation;
+use super::polygon::signed_area;
 use super::{Face, Mesh, Polygon};
 
 /// Outlines up to this long are cut by ears (2 to 4 microseconds for 4 to 30 corners); longer ones and those with
@@ -83,10 +84,20 @@ pub(super) fn triangulate_rings(rings: &[&[DVec2]]) -> Vec<[u32; 3]> {
         return triangles;
     }
     let triangles = delaunay(rings);
-    if holes.is_empty() && triangles.len() + 2 < outer.len() && outer.len() <= LONGEST_FOR_ROUNDED {
+    if holes.is_empty() && outer.len() <= LONGEST_FOR_ROUNDED && !covers(&triangles, outer) {
         return rounded_ears::cut(outer).unwrap_or(triangles);
     }
     triangles
+}
+
+/// Whether there are n - 2 triangles whose areas add up to that of the ring.
+fn covers(triangles: &[[u32; 3]], ring: &[DVec2]) -> bool {
+    let area = |t: &[u32; 3]| {
+        let [a, b, c] = t.map(|i| ring[i as usize]);
+        (b - a).perp_dot(c - a) / 2.0
+    };
+    let (covered, whole) = (triangles.iter().map(area).sum::<f64>(), signed_area(ring));
+    triangles.len() + 2 == ring.len() && (covered - whole).abs() <= 1e-9 * whole.abs()
 }
 
 /// Cuts ears until a triangle is left (Meisters 1975). An ear turns left strictly and no other corner lies in it or on

@@ -47,7 +47,7 @@ fn height(a: DVec2, b: DVec2, c: DVec2) -> f64 {
 }
 
 /// What cutting off a corner does wrong: the height of a triangle that turns the wrong way, or how deep another corner lies
-/// in it; below 0, how far the nearest one stays away. A strict ear is not enough: the fold may lie just beside it.
+/// in it, or an edge; below 0, how far the nearest corner stays away. A strict ear is not enough: the fold may lie just beside it.
 fn harm(ring: &[DVec2], left: &[u32], tip: usize) -> f64 {
     let n = left.len();
     let corners = [(tip + n - 1) % n, tip, (tip + 1) % n];
@@ -60,5 +60,19 @@ fn harm(ring: &[DVec2], left: &[u32], tip: usize) -> f64 {
         let p = ring[left[k] as usize];
         inside(a, b, p).min(inside(b, c, p)).min(inside(c, a, p))
     };
-    (0..n).filter(|k| !corners.contains(k)).map(depth).fold(f64::NEG_INFINITY, f64::max)
+    let deepest = (0..n).filter(|k| !corners.contains(k)).map(depth).fold(f64::NEG_INFINITY, f64::max);
+    // An edge may pass through the ear between the corners.
+    let ends = |k: usize| (ring[left[k] as usize], ring[left[(k + 1) % n] as usize]);
+    (0..n).map(|k| crossing(ends(k), (c, a))).fold(deepest, f64::max)
+}
+
+/// How far one of two segments that cross would have to give way; no bound if they do not cross.
+fn crossing((p, q): (DVec2, DVec2), (a, b): (DVec2, DVec2)) -> f64 {
+    let side = |from: DVec2, to: DVec2, o: DVec2| (to - from).normalize_or_zero().perp_dot(o - from);
+    let (sp, sq, sa, sb) = (side(a, b, p), side(a, b, q), side(p, q, a), side(p, q, b));
+    if sp * sq < 0.0 && sa * sb < 0.0 {
+        [sp, sq, sa, sb].into_iter().map(f64::abs).fold(f64::INFINITY, f64::min)
+    } else {
+        f64::NEG_INFINITY
+    }
 }
