@@ -2,7 +2,7 @@
 //!
 //! Corners are numbered over the loops in order: the outer loop first, then the holes.
 
-mod rounded_ears;
+mod rounded;
 
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
@@ -85,7 +85,7 @@ pub(super) fn triangulate_rings(rings: &[&[DVec2]]) -> Vec<[u32; 3]> {
     }
     let triangles = delaunay(rings);
     if holes.is_empty() && outer.len() <= LONGEST_FOR_ROUNDED && !covers(&triangles, outer) {
-        return rounded_ears::cut(outer).unwrap_or(triangles);
+        return rounded::cut(outer).unwrap_or(triangles);
     }
     triangles
 }
