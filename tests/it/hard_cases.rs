@@ -16,7 +16,7 @@ Every named footprint of `../shared/hard-cases/footprints.geojson` as Mansard se
 where it was repaired), the straight skeleton, and the hip roof of 45 degrees with its faces shaded by the side they look
 to (light from the north-west). A test draws them again and compares: `cargo test --test it hard_cases`;
 `MANSARD_BLESS=1` writes what differs. Nothing is welded and nothing is too small here (`weld` and `min_area` are 0).
-The most finely divided cases are drawn without inner lines.
+The most finely divided cases are drawn without inner lines; those of more than 1,000 vertices are left out.
 ";
 
 /// Width of a drawing with its margin, in its own units.
