@@ -2,6 +2,8 @@
 //!
 //! Corners are numbered over the loops in order: the outer loop first, then the holes.
 
+mod rounded;
+
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
@@ -10,11 +12,15 @@ use spade::handles::{FaceHandle, InnerTag};
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
 
 use super::orientation::orientation;
+use super::polygon::signed_area;
 use super::{Face, Mesh, Polygon};
 
 /// Outlines up to this long are cut by ears (2 to 4 microseconds for 4 to 30 corners); longer ones and those with
 /// holes go through the constrained Delaunay triangulation (numerics section 6).
 const LONGEST_FOR_EARS: usize = 64;
+
+/// Outlines that cross themselves by a rounding are cut up to this length, in cubic time.
+const LONGEST_FOR_ROUNDED: usize = 300;
 
 /// Triangles of a plan polygon: n + 2 h - 2 of them, counter-clockwise, covering it exactly.
 /// Input that is no polygon (too few points, no area, crossing edges) gives fewer or none.
@@ -77,7 +83,21 @@ pub(super) fn triangulate_rings(rings: &[&[DVec2]]) -> Vec<[u32; 3]> {
     {
         return triangles;
     }
-    delaunay(rings)
+    let triangles = delaunay(rings);
+    if holes.is_empty() && outer.len() <= LONGEST_FOR_ROUNDED && !covers(&triangles, outer) {
+        return rounded::cut(outer).unwrap_or(triangles);
+    }
+    triangles
+}
+
+/// Whether there are n - 2 triangles whose areas add up to that of the ring.
+fn covers(triangles: &[[u32; 3]], ring: &[DVec2]) -> bool {
+    let area = |t: &[u32; 3]| {
+        let [a, b, c] = t.map(|i| ring[i as usize]);
+        (b - a).perp_dot(c - a) / 2.0
+    };
+    let (covered, whole) = (triangles.iter().map(area).sum::<f64>(), signed_area(ring));
+    triangles.len() + 2 == ring.len() && (covered - whole).abs() <= 1e-9 * whole.abs()
 }
 
 /// Cuts ears until a triangle is left (Meisters 1975). An ear turns left strictly and no other corner lies in it or on

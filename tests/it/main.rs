@@ -5,6 +5,7 @@ mod compatibility;
 mod coverage;
 mod diagnostics;
 mod golden;
+mod hard_cases;
 mod manual;
 mod pipeline;
 mod projects;

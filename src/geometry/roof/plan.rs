@@ -16,7 +16,7 @@ pub(super) struct PlanFace {
 }
 
 /// A corner of a roof: plan position and height, metres. Until the slope is applied, height is that at slope 1.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct PlanNode {
     pub position: DVec2,
     pub height: f64,
@@ -73,7 +73,8 @@ impl PlanRoof {
 
     /// The same without a bottom.
     pub fn into_sheet(self) -> Roof {
-        let PlanRoof { nodes, faces, warnings } = self;
+        let PlanRoof { nodes, mut faces, warnings } = self;
+        unite_doubled(&nodes, &mut faces);
         let mut mesh = Mesh { positions: Vec::with_capacity(nodes.len()), faces: Vec::with_capacity(faces.len()) };
         let mut parts = Vec::with_capacity(faces.len());
         let mut number = vec![u32::MAX; nodes.len()];
@@ -99,6 +100,31 @@ fn number_of(number: &mut [u32], positions: &mut Vec<DVec3>, nodes: &[PlanNode],
         positions.push(DVec3::new(p.x, height, -p.y));
     }
     *n
+}
+
+/// Where rings of the polygon touch in a corner, faces run from the corner of one ring to that of the other: an edge
+/// without length. Make one corner of the two, so that no face repeats a point.
+fn unite_doubled(nodes: &[PlanNode], faces: &mut [PlanFace]) {
+    let same = |&(u, v): &(u32, u32)| u != v && nodes[u as usize] == nodes[v as usize];
+    let neighbours = |r: &Vec<u32>| (0..r.len()).map(|k| (r[k], r[(k + 1) % r.len()])).filter(same).collect::<Vec<_>>();
+    let doubled: Vec<(u32, u32)> = faces.iter().flat_map(|f| neighbours(&f.ring)).collect();
+    if doubled.is_empty() {
+        return;
+    }
+    let mut stands_for: Vec<u32> = (0..nodes.len() as u32).collect();
+    for (u, v) in doubled {
+        let (u, v) = (stands_for[u as usize], stands_for[v as usize]);
+        stands_for.iter_mut().filter(|n| **n == u.max(v)).for_each(|n| *n = u.min(v));
+    }
+    for face in faces {
+        for ring in std::iter::once(&mut face.ring).chain(&mut face.holes) {
+            ring.iter_mut().for_each(|n| *n = stands_for[*n as usize]);
+            ring.dedup();
+            if ring.len() > 1 && ring.first() == ring.last() {
+                ring.pop();
+            }
+        }
+    }
 }
 
 /// The polygon facing down: every ring as vertex 1, 0, n - 1, ..., 2.

@@ -394,3 +394,64 @@ fn a_ridge_over_an_outline_that_touches_itself() {
     let roof = ridge(&Polygon { outer, holes: Vec::new() }, Slope::Angle(45.0), DVec2::X).unwrap();
     assert!((volume(&roof) - 84.0).abs() < 1e-9, "{}", volume(&roof));
 }
+
+/// The triangles of every face are as large as the face.
+#[track_caller]
+fn assert_triangles_fill(roof: &Roof) {
+    let triangles: Vec<f64> = crate::geometry::triangulate::triangles(&roof.mesh)
+        .map(|(_, [a, b, c])| (b - a).cross(c - a).length() / 2.0)
+        .collect();
+    let surface: f64 = roof.mesh.faces.iter().map(|f| roof.mesh.area(f)).sum();
+    close(triangles.iter().sum(), surface);
+    assert!(mesh_checks::faces_not_triangulated(&roof.mesh).is_empty());
+}
+
+/// Found by `tests/bench/geometry`: corners a few grid steps apart at an apex fold a face by a rounding.
+#[test]
+fn faces_folded_by_a_rounding_at_an_apex_are_covered() {
+    for n in [17, 48, 64] {
+        let corner = |k: usize| {
+            let (sin, cos) = libm::sincos(std::f64::consts::TAU * k as f64 / n as f64);
+            DVec2::new(cos, sin) * 10.0
+        };
+        let ring: Vec<DVec2> = (0..n).map(corner).collect();
+        let outline = crate::geometry::repair::repair(&[ring], &Default::default()).polygons.remove(0);
+        assert_triangles_fill(&hip(&outline, Slope::Angle(45.0), 0.0, false).unwrap());
+    }
+}
+
+/// Found by `tests/bench/geometry`: on a turned plan a ridge ends beside a valley, within the rounding.
+#[test]
+fn a_ridge_that_ends_on_a_valley_is_covered() {
+    let u = polygon(
+        &[
+            (1878.8381361996232, 1611.2236489156026),
+            (1886.1570868061656, 1604.4094753032712),
+            (1889.9048822929478, 1608.4348981368696),
+            (1882.5859316864053, 1615.2490717492008),
+            (1883.9487664088715, 1616.7128618705094),
+            (1876.6298158023292, 1623.5270354828406),
+            (1868.112098786915, 1614.3783472246625),
+            (1875.4310493934574, 1607.5641736123312),
+        ],
+        &[],
+    );
+    let outline = crate::geometry::repair::repair(&[u.outer], &Default::default()).polygons.remove(0);
+    assert_triangles_fill(&hip(&outline, Slope::Angle(45.0), 0.0, false).unwrap());
+}
+
+/// Found by `tests/bench/geometry`: where rings touch, a face ran through both corners at the same place.
+#[test]
+fn rings_that_touch_in_a_corner_double_no_corner() {
+    let p = polygon(
+        &[(0.0, 0.0), (20.0, 0.0), (20.0, 20.0), (0.0, 20.0)],
+        &[
+            &[(5.0, 5.0), (5.0, 10.0), (10.0, 10.0), (10.0, 5.0)],
+            &[(10.0, 10.0), (10.0, 15.0), (15.0, 15.0), (15.0, 10.0)],
+        ],
+    );
+    let roof = hip(&p, Slope::Angle(45.0), 0.0, false).unwrap();
+    assert!(mesh_checks::doubled_corners(&roof.mesh).is_empty());
+    assert_eq!(open_edges(&roof.mesh), []);
+    assert_eq!(edges_run_twice_the_same_way(&roof.mesh), []);
+}
