@@ -16,6 +16,7 @@ mod groups;
 mod imports;
 mod library;
 mod limits;
+mod mapped_roofs;
 mod materials;
 mod measures;
 mod normals;

@@ -11,4 +11,5 @@ mod pipeline;
 mod projects;
 mod syncw;
 mod tidy;
+mod validation;
 mod workshop;
