@@ -71,21 +71,42 @@ pub fn doubled_corners(mesh: &Mesh) -> Vec<(usize, usize)> {
     found
 }
 
-/// Faces with a corner farther than `tolerance` metres from the face's mean plane, with the greatest such distance.
+/// Faces without a plane that all corners are within `tolerance` metres of, with the least such distance that was
+/// found. Beside the plane of the mean normal, which says nothing about slivers, that of the three corners farthest from
+/// each other is tried.
 pub fn non_planar_faces(mesh: &Mesh, tolerance: f64) -> Vec<(usize, f64)> {
     let mut found = Vec::new();
     for (index, face) in mesh.faces.iter().enumerate() {
-        let normal = mesh.normal(face);
         let corners: Vec<DVec3> = face.corners().map(|c| mesh.positions[c as usize]).collect();
-        let Some(&first) = corners.first() else { continue };
-        let heights = corners.iter().map(|&p| (p - first).dot(normal));
-        let mean = heights.clone().sum::<f64>() / corners.len() as f64;
-        let off = heights.map(|h| (h - mean).abs()).fold(0.0, f64::max);
+        let mut off = off_plane(&corners, mesh.normal(face));
+        if off > tolerance {
+            off = off.min(off_plane(&corners, spanned_normal(&corners)));
+        }
         if off > tolerance {
             found.push((index, off));
         }
     }
     found
+}
+
+/// Greatest distance of a corner from the mean plane with this normal.
+fn off_plane(corners: &[DVec3], normal: DVec3) -> f64 {
+    let Some(&first) = corners.first() else { return 0.0 };
+    let heights = corners.iter().map(|&p| (p - first).dot(normal));
+    let mean = heights.clone().sum::<f64>() / corners.len() as f64;
+    heights.map(|h| (h - mean).abs()).fold(0.0, f64::max)
+}
+
+/// Normal of the plane through the corner farthest from the first, the farthest from that, and the farthest from both.
+fn spanned_normal(corners: &[DVec3]) -> DVec3 {
+    let farthest = |distance: &dyn Fn(DVec3) -> f64| {
+        corners.iter().copied().max_by(|&p, &q| distance(p).total_cmp(&distance(q))).unwrap_or_default()
+    };
+    let first = corners.first().copied().unwrap_or_default();
+    let a = farthest(&|p| p.distance_squared(first));
+    let b = farthest(&|p| p.distance_squared(a));
+    let c = farthest(&|p| (p - a).cross(b - a).length_squared());
+    (b - a).cross(c - a).normalize_or_zero()
 }
 
 /// (face, corner) whose index has no vertex. All other checks need this one to find nothing.

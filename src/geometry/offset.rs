@@ -1,6 +1,8 @@
 //! Mitred offsets of a polygon. In: a repaired [`Polygon`] and distances. Out: what is left inside, and one border
 //! face per edge, which share their vertices bit for bit.
 
+mod settled;
+
 use glam::DVec2;
 
 use crate::geometry::polygon::{Polygon, Ring, ring_contains, signed_area};
@@ -79,14 +81,19 @@ pub(crate) fn reversed_edge(edge: usize, count: usize) -> usize {
     (2 * count - 2 - edge) % count
 }
 
+/// A rectangle that nothing reaches that moves outwards by at most `farthest`.
+fn frame(polygon: &Polygon, farthest: f64) -> Result<Ring, SkeletonError> {
+    let (min, max) = polygon.bounds().ok_or(SkeletonError::TooFewPoints)?;
+    let margin = DVec2::splat(2.0 * farthest * MITRE_LIMIT);
+    let (low, high) = (min - margin, max + margin);
+    Ok(vec![low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)])
+}
+
 /// Let every edge move outwards by its own distance (>= 0).
 pub(crate) fn grow(polygon: &Polygon, distances: &[f64]) -> Result<Outside, SkeletonError> {
     let farthest = distances.iter().fold(0.0, |m, &d| f64::max(m, d));
-    let (min, max) = polygon.bounds().ok_or(SkeletonError::TooFewPoints)?;
-    let margin = DVec2::splat(3.0 * farthest * MITRE_LIMIT);
-    let (low, high) = (min - margin, max + margin);
-    let frame = vec![low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)];
-    let region = Polygon { outer: frame, holes: vec![polygon.outer.iter().rev().copied().collect()] };
+    let outer = frame(polygon, farthest)?;
+    let region = Polygon { outer, holes: vec![polygon.outer.iter().rev().copied().collect()] };
     let options = Options { mitre_limit: Some(MITRE_LIMIT), ..Options::default() };
     let mut first = 0;
     let mut weights_of = |ring: &Ring| {
@@ -112,7 +119,10 @@ fn outwards(polygon: &Polygon, distance: f64) -> Result<Offset, SkeletonError> {
         return Err(SkeletonError::Distance(distance));
     }
     let edges = polygon.rings().map(Vec::len).sum();
-    let outside = grow(polygon, &vec![distance; edges])?;
+    let outside = match grow(polygon, &vec![distance; edges]) {
+        Err(SkeletonError::NotSimple) => return settled::outwards(polygon, distance),
+        grown => grown?,
+    };
     let count = polygon.outer.len();
     let own = |edge: usize| edge.checked_sub(FRAME).map(|e| reversed_edge(e, count));
     let mut borders_out = borders(&outside.around, own);

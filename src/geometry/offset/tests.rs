@@ -135,3 +135,21 @@ fn reversed_edges() {
     // Ring 0 1 2 3 reversed is 3 2 1 0: its edge 0 runs from 3 to 2, which is edge 2.
     assert_eq!((0..4).map(|e| reversed_edge(e, 4)).collect::<Vec<_>>(), [2, 1, 0, 3]);
 }
+
+/// Found by the fuzz target `geometry`: a detail of a few grid steps crosses itself on the coarser grid of what it grows
+/// into.
+#[test]
+fn outlines_with_details_below_the_coarser_grid_grow() {
+    let p = polygon(
+        &[(0.0, 0.0), (30.0, 0.0), (30.0, 20.0), (1e-7, 20.0), (1.5e-7, 19.999_999_9), (0.0, 20.000_000_05)],
+        &[],
+    );
+    let p = crate::geometry::repair::repair(&[p.outer], &Default::default()).polygons.remove(0);
+    for distance in [0.5, 7.0, 40.0] {
+        let made = offset(&p, distance).unwrap();
+        let wanted = (30.0 + 2.0 * distance) * (20.0 + 2.0 * distance);
+        assert!((inside_area(&made) - wanted).abs() < 1e-4 * distance, "{distance}: {}", inside_area(&made));
+        let strips: f64 = border_areas(&made).iter().map(|b| b.1.abs()).sum();
+        assert!((strips - (wanted - 600.0)).abs() < 1e-4 * distance, "{distance}: {strips}");
+    }
+}

@@ -15,6 +15,12 @@ use mansard::geometry::{Polygon, Ring};
 /// Lengths are held to this share of the extent: eight steps of the grid (welding), magnified by angles between planes.
 const LENGTH: f64 = 2e-7;
 
+/// What lengths are held to: [`LENGTH`], and some steps of the numbers that far from the origin. Metres.
+fn rounding(p: &Polygon) -> f64 {
+    let farthest = p.outer.iter().map(|p| p.abs().max_element()).fold(0.0, f64::max);
+    LENGTH * extent(p) + 8.0 * f64::EPSILON * farthest
+}
+
 /// What became of one footprint.
 pub struct Judgement {
     pub verdict: Verdict,
@@ -92,7 +98,7 @@ fn area_error(p: &Polygon, s: &Skeleton) -> f64 {
 /// and every edge of the polygon once: together that makes them a partition.
 fn of_skeleton(p: &Polygon, s: &Skeleton) -> Vec<String> {
     let mut found = Vec::new();
-    let (size, origin) = (extent(p), p.outer[0]);
+    let (size, origin, rounding) = (extent(p), p.outer[0], rounding(p));
     let edges: Vec<(DVec2, DVec2)> =
         p.rings().flat_map(|r| (0..r.len()).map(|i| (r[i], r[(i + 1) % r.len()]))).collect();
     if !s.tops.is_empty() || !s.extras.is_empty() || s.faces.iter().any(|f| !f.holes.is_empty()) {
@@ -106,11 +112,11 @@ fn of_skeleton(p: &Polygon, s: &Skeleton) -> Vec<String> {
         let (start, end) = edges[face.edge];
         misplaced += usize::from(plan[0] != start - origin || plan[1] != end - origin);
         reversed += usize::from(signed_area(&plan) < -1e-9 * size * size);
-        crossing += usize::from(crosses_itself(&plan, LENGTH * size));
+        crossing += usize::from(crosses_itself(&plan, rounding));
         let normal = (end - start).normalize().perp();
         let off = |&n: &u32| {
             let node = s.nodes[n as usize];
-            (normal.dot(node.position - start) - node.time).abs() > LENGTH * size || node.time < 0.0
+            (normal.dot(node.position - start) - node.time).abs() > rounding || node.time < 0.0
         };
         off_plane += ring.iter().filter(|n| off(n)).count();
         (0..ring.len()).for_each(|k| *runs.entry((ring[k], ring[(k + 1) % ring.len()])).or_default() += 1);
@@ -156,14 +162,15 @@ fn of_roof(p: &Polygon, s: &Skeleton, roof: &Roof) -> Vec<String> {
         ("edges used more than twice", mesh::edges_used_more_than_twice(m).len()),
         ("faces without area", mesh::faces_without_area(m).len()),
         ("doubled corners", mesh::doubled_corners(m).len()),
-        ("non-planar faces", mesh::non_planar_faces(m, LENGTH * extent(p)).len()),
+        ("non-planar faces", mesh::non_planar_faces(m, rounding(p)).len()),
         // Where rings touch, the floor has fewer triangles than corners tell.
         ("faces not triangulated", if touches { 0 } else { mesh::faces_not_triangulated(m).len() }),
     ])
     .collect();
     let want = volume_under(p, s);
     let got = mesh::volume(m);
-    if (got - want).abs() > 1e-7 * want.max(extent(p).powi(3) * 1e-6) {
+    // Heights are that far off over the whole plan, or a share of them.
+    if (got - want).abs() > 1e-7 * want + rounding(p) * p.area() {
         found.push(format!("volume {got}, under the skeleton {want}"));
     }
     found
