@@ -9,8 +9,10 @@ use mansard::geometry::polygon::signed_area;
 use mansard::geometry::polygon_checks as checks;
 use mansard::geometry::repair::{Options, Verdict, repair};
 use mansard::geometry::roof::{Roof, Slope, hip};
-use mansard::geometry::skeleton::{Skeleton, skeleton};
+use mansard::geometry::skeleton::{Skeleton, SkeletonFace, skeleton};
 use mansard::geometry::{Polygon, Ring};
+
+use crate::double_area::{Double, twice_signed_area};
 
 /// Lengths are held to this share of the extent: eight steps of the grid (welding), magnified by angles between planes.
 const LENGTH: f64 = 2e-7;
@@ -89,9 +91,10 @@ fn points(s: &Skeleton, ring: &[u32], origin: DVec2) -> Vec<DVec2> {
 }
 
 fn area_error(p: &Polygon, s: &Skeleton) -> f64 {
-    let origin = p.outer[0];
-    let areas: Vec<f64> = s.faces.iter().map(|f| signed_area(&points(s, &f.boundary, origin))).collect();
-    (mesh::pairwise_sum(&areas) - p.area()).abs() / p.area()
+    let face = |f: &SkeletonFace| twice_signed_area(&points(s, &f.boundary, DVec2::ZERO));
+    let whole = p.rings().map(|r| twice_signed_area(r)).fold(Double::default(), Double::plus);
+    let missing = s.faces.iter().map(face).fold(whole.negated(), Double::plus);
+    (missing.to_f64() / whole.to_f64()).abs()
 }
 
 /// Faces are simple, counter-clockwise, in their planes, and run every inner edge once each way

@@ -4,6 +4,7 @@
 //! `cargo bench --bench geometry -- [hard] [extracts] [generated] [count=N] [seed=N] [only=CLASS]`
 
 mod classes;
+mod double_area;
 mod extracts;
 mod judge;
 mod plans;

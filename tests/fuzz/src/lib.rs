@@ -14,6 +14,9 @@ pub mod diagnostics;
 #[path = "../../bench/geometry/classes.rs"]
 pub mod classes;
 #[cfg(feature = "geometry")]
+#[path = "../../bench/geometry/double_area.rs"]
+pub mod double_area;
+#[cfg(feature = "geometry")]
 #[path = "../../../src/geometry/mod.rs"]
 pub mod geometry;
 #[cfg(feature = "evaluate")]
