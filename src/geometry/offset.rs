@@ -5,7 +5,9 @@ mod settled;
 
 use glam::DVec2;
 
+use crate::geometry::grid::Grid;
 use crate::geometry::polygon::{Polygon, Ring, ring_contains, signed_area};
+use crate::geometry::polygon_checks::crossing_edges;
 use crate::geometry::skeleton::{Options, Skeleton, SkeletonError, run};
 
 /// The strip between an edge and its new place, counter-clockwise seen from above.
@@ -35,7 +37,7 @@ pub const MITRE_LIMIT: f64 = 4.0;
 /// Outwards, a corner reaches at most [`MITRE_LIMIT`] times the distance.
 ///
 /// # Errors
-/// Those of the skeleton.
+/// Those of the skeleton; outwards, [`SkeletonError::NotSimple`] if the outline is too small beside the distance.
 pub fn offset(polygon: &Polygon, distance: f64) -> Result<Offset, SkeletonError> {
     if distance > 0.0 {
         return outwards(polygon, distance);
@@ -73,6 +75,13 @@ pub(crate) struct Outside {
     pub in_holes: Vec<Skeleton>,
 }
 
+impl Outside {
+    /// Whether nothing has reached the frame. Where sharp corners touch each other they keep no bevel, and do.
+    fn is_inside_frame(&self) -> bool {
+        self.around.tops.iter().any(|top| settled::is_frame(&points(&self.around, top), &self.region.outer))
+    }
+}
+
 /// Corners of the frame.
 pub(crate) const FRAME: usize = 4;
 
@@ -89,10 +98,34 @@ fn frame(polygon: &Polygon, farthest: f64) -> Result<Ring, SkeletonError> {
     Ok(vec![low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)])
 }
 
+/// Whether a ring crosses itself once it is rounded to the grid over a frame around it, coarser than its own.
+fn crosses_on_grid_of(frame: &Ring, ring: &Ring) -> bool {
+    let Some(grid) = Grid::over(frame[0], frame[2]) else { return false };
+    let rounded = |&p: &DVec2| {
+        let [x, y] = grid.snap(p);
+        grid.plan(x as f64, y as f64)
+    };
+    let mut outer: Ring = ring.iter().map(rounded).collect();
+    if &outer == ring {
+        return false;
+    }
+    outer.dedup();
+    while outer.len() > 1 && outer.first() == outer.last() {
+        outer.pop();
+    }
+    !crossing_edges(&Polygon { outer, holes: Vec::new() }).is_empty()
+}
+
 /// Let every edge move outwards by its own distance (>= 0).
+///
+/// # Errors
+/// Those of the skeleton; [`SkeletonError::NotSimple`] if the outline has details finer than the grid it grows on.
 pub(crate) fn grow(polygon: &Polygon, distances: &[f64]) -> Result<Outside, SkeletonError> {
     let farthest = distances.iter().fold(0.0, |m, &d| f64::max(m, d));
     let outer = frame(polygon, farthest)?;
+    if crosses_on_grid_of(&outer, &polygon.outer) {
+        return Err(SkeletonError::NotSimple);
+    }
     let region = Polygon { outer, holes: vec![polygon.outer.iter().rev().copied().collect()] };
     let options = Options { mitre_limit: Some(MITRE_LIMIT), ..Options::default() };
     let mut first = 0;
@@ -121,6 +154,7 @@ fn outwards(polygon: &Polygon, distance: f64) -> Result<Offset, SkeletonError> {
     let edges = polygon.rings().map(Vec::len).sum();
     let outside = match grow(polygon, &vec![distance; edges]) {
         Err(SkeletonError::NotSimple) => return settled::outwards(polygon, distance),
+        Ok(grown) if !grown.is_inside_frame() => return settled::outwards(polygon, distance),
         grown => grown?,
     };
     let count = polygon.outer.len();

@@ -145,7 +145,7 @@ fn outlines_with_details_below_the_coarser_grid_grow() {
         &[],
     );
     let p = crate::geometry::repair::repair(&[p.outer], &Default::default()).polygons.remove(0);
-    for distance in [0.5, 7.0, 40.0] {
+    for distance in [0.5, 7.0, 12.57081263163127, 40.0] {
         let made = offset(&p, distance).unwrap();
         let wanted = (30.0 + 2.0 * distance) * (20.0 + 2.0 * distance);
         assert!((inside_area(&made) - wanted).abs() < 1e-4 * distance, "{distance}: {}", inside_area(&made));

@@ -7,6 +7,7 @@ use glam::DVec2;
 use crate::geometry::mesh_checks::defects;
 use crate::geometry::offset::offset;
 use crate::geometry::repair::{Options, Verdict, repair};
+use crate::geometry::skeleton::SkeletonError;
 use crate::geometry::roof::{Facing, RoofShape, Slope, sound};
 use crate::geometry::{Polygon, Ring};
 use crate::judge::judge;
@@ -73,7 +74,11 @@ fn check_offsets(polygon: &Polygon, bytes: &mut Unstructured<'_>) -> Result<()> 
     let extent = (high - low).max_element();
     let distance = extent * f64::from(bytes.arbitrary::<i8>()?) / 256.0;
     let context = || format!("offset {distance} of {polygon:?}");
-    let made = offset(polygon, distance).unwrap_or_else(|why| panic!("{why}: {}", context()));
+    let made = match offset(polygon, distance) {
+        // Nothing is left of a sliver on the grid of what it grows into.
+        Err(SkeletonError::NotSimple) if distance > 0.0 && polygon.area() < 1e-7 * extent * extent => return Ok(()),
+        made => made.unwrap_or_else(|why| panic!("{why}: {}", context())),
+    };
     let area: f64 = made.inside.iter().map(Polygon::area).sum();
     let slack = 1e-7 * extent * extent;
     let grown = area - polygon.area();
