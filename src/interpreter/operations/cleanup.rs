@@ -4,7 +4,7 @@
 
 use std::collections::BTreeMap;
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use super::super::derivation::Derivation;
 use super::super::form::Form;
@@ -13,7 +13,8 @@ use super::super::shape::Shape;
 use super::super::topology::Topology;
 use super::args::Args;
 use crate::cga::builtins::Word;
-use crate::geometry::{Face, Mesh};
+use crate::geometry::polygon::ring_contains;
+use crate::geometry::{Face, Mesh, PlaneFrame};
 
 /// Least merge distance, metres, and angle, degrees, at tolerance 0.
 const NUMERICAL: f64 = 1e-6;
@@ -127,8 +128,32 @@ fn drop_straight_corners(mesh: &mut Mesh, angle: f64, keep: impl Fn(u32) -> bool
         }
         face.outer.iter().take(2).for_each(|&v| bent[v as usize] = true);
     }
+    for face in &mesh.faces {
+        keep_where_loops_would_cross(mesh, face, &mut bent);
+    }
     for face in &mut mesh.faces {
         remove_corners(face, |ring, i| ring.len() > 3 && !bent[ring[i] as usize]);
+    }
+}
+
+/// A run of corners stays if the straight line in its place would run past another corner of the face: a hole near a
+/// wall that hardly bends.
+fn keep_where_loops_would_cross(mesh: &Mesh, face: &Face, bent: &mut [bool]) {
+    let Some(frame) = PlaneFrame::of_face(mesh, face) else { return };
+    let plan = |&v: &u32| frame.to_plan(mesh.positions[v as usize]);
+    for ring in face.loops() {
+        let kept: Vec<usize> = (0..ring.len()).filter(|&i| bent[ring[i] as usize]).collect();
+        for (k, &start) in kept.iter().enumerate() {
+            let end = kept.get(k + 1).copied().unwrap_or(kept[0] + ring.len());
+            let run: Vec<u32> = (start..=end).map(|i| ring[i % ring.len()]).collect();
+            if run.len() < 3 {
+                continue;
+            }
+            let around: Vec<DVec2> = run.iter().map(plan).collect();
+            if face.corners().any(|v| !run.contains(&v) && ring_contains(&around, plan(&v))) {
+                run.iter().for_each(|&v| bent[v as usize] = true);
+            }
+        }
     }
 }
 

@@ -181,3 +181,22 @@ fn envelope_sides_have_the_tags_of_their_edges() {
         assert_eq!(tree.prints.iter().filter(|p| *p == "true").count(), 4, "{direction} {turn}");
     }
 }
+
+/// Found on Munich's relation/2379713: a wall that hardly bends was straightened through the courtyard beside it.
+#[test]
+fn straight_corners_stay_where_a_hole_is_beside_them() {
+    let ring = |points: &[(f64, f64)]| points.iter().map(|&(x, y)| DVec2::new(x, y)).collect();
+    let outer = [(0.0, 40.0), (0.0, 0.0), (30.0, -0.4), (60.0, 0.0), (60.0, 40.0), (30.0, 40.4)];
+    for (hole, corners) in [
+        ([(29.0, -0.3), (29.0, 5.0), (31.0, 5.0), (31.0, -0.3)], 5),
+        ([(29.0, 0.3), (29.0, 5.0), (31.0, 5.0), (31.0, 0.3)], 4),
+    ] {
+        let mut mesh = Mesh::default();
+        PlaneFrame::PLAN.push_face(&mut mesh, &Polygon { outer: ring(&outer), holes: vec![ring(&hole)] }, 0.0);
+        let tree = derived("Lot --> cleanupGeometry(vertices, 0.2) A.", mesh);
+        let face = &tree.leaves[0].mesh.faces[0];
+        assert_eq!(face.outer.len(), corners);
+        let polygon = PlaneFrame::PLAN.face_to_plan(&tree.leaves[0].mesh, face);
+        assert_eq!(crate::geometry::polygon_checks::crossing_edges(&polygon), []);
+    }
+}
