@@ -5,13 +5,14 @@ use glam::DVec2;
 
 use super::polygon::{Polygon, Ring};
 
-/// Walls this much shorter than the longest one count as as long: the weld distance of maps (numerics section 3), metres.
-const AS_LONG: f64 = 1e-3;
+/// Walls count as as long within this share of the longest one: 1 mm on 10 m, whatever the unit.
+const AS_LONG: f64 = 1e-4;
 /// Sine of the turn between edges that are one wall: 1 degree.
 const STRAIGHT: f64 = 0.017_452_406_437_283_51;
 
-/// Every ring begins with its longest wall (edges in a line count together); of walls as long, with the one that begins
-/// farthest south, then west. Holes come in the order of their first points, south before north. Returns for every edge,
+/// Every ring begins with its longest wall (edges in a line count together); of walls as long, with the one whose next wall is
+/// longest, and so on, so that a turned outline begins with the same wall. Where all walls are alike (a rectangle's) it
+/// is the one that begins farthest south, then west. Holes come in the order of their first points, south before north. Returns for every edge,
 /// outer ring first, the number it had.
 pub fn canonical_order(polygon: &mut Polygon) -> Vec<usize> {
     let mut first = 0;
@@ -52,13 +53,21 @@ fn first_corner(ring: &[DVec2]) -> usize {
         before.perp_dot(after).abs() > STRAIGHT || before.dot(after) < 0.0
     };
     let corners: Vec<usize> = (0..n).filter(|&i| bends(i)).collect();
-    let wall = |k: usize| {
-        let (from, to) = (corners[k], corners[(k + 1) % corners.len()]);
-        ring[from].distance(ring[to])
-    };
-    let longest = (0..corners.len()).map(wall).fold(0.0, f64::max);
-    let as_long = (0..corners.len()).filter(|&k| wall(k) >= longest - AS_LONG).map(|k| corners[k]);
-    as_long.min_by(|&i, &j| south_west(ring[i], ring[j])).unwrap_or(0)
+    let m = corners.len();
+    let length = |k: usize| ring[corners[k]].distance(ring[corners[(k + 1) % m]]);
+    let walls: Vec<f64> = (0..m).map(length).collect();
+    let as_long = AS_LONG * walls.iter().fold(0.0, |a, &b| f64::max(a, b));
+    let mut left: Vec<usize> = (0..m).collect();
+    for next in 0..m {
+        let wall = |k: usize| walls[(k + next) % m];
+        let longest = left.iter().map(|&k| wall(k)).fold(0.0, f64::max);
+        left.retain(|&k| wall(k) >= longest - as_long);
+        if left.len() < 2 {
+            break;
+        }
+    }
+    let starts = left.into_iter().map(|k| corners[k]);
+    starts.min_by(|&i, &j| south_west(ring[i], ring[j])).unwrap_or(0)
 }
 
 #[cfg(test)]
@@ -82,6 +91,17 @@ mod tests {
         };
         assert_eq!(canonical_order(&mut polygon), [2, 3, 4, 0, 1, 10, 11, 9, 5, 6, 7, 8]);
         assert_eq!(polygon.outer[0], DVec2::new(10.0, 6.0));
+    }
+
+    #[test]
+    fn of_walls_as_long_the_next_ones_decide() {
+        // An L with two walls of 10 m: after the western one comes another of 10 m, whichever way the L is turned.
+        let l = ring(&[(0.0, 0.0), (10.0, 0.0), (10.0, 5.0), (5.0, 5.0), (5.0, 10.0), (0.0, 10.0)]);
+        for (turns, scale) in [(0, 1.0), (1, 1.0), (2, 1e-3), (3, 1e3)] {
+            let turned = l.iter().map(|&p| (0..turns).fold(p, |p, _| p.perp()) * scale).collect();
+            let mut polygon = Polygon { outer: turned, holes: Vec::new() };
+            assert_eq!(canonical_order(&mut polygon)[0], 5, "{turns} {scale}");
+        }
     }
 
     proptest! {

@@ -10,7 +10,7 @@
 
 use glam::DVec2;
 
-use super::Polygon;
+use super::{Polygon, Ring};
 
 /// An upright rectangle by its corners.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -37,14 +37,18 @@ const GOLDEN: f64 = 0.618_033_988_749_894_9;
 /// The largest rectangle with level and upright sides; of equally large ones the one whose centre is nearest to `middle`.
 /// `None` if the polygon holds none.
 pub fn largest_upright(polygon: &Polygon, middle: DVec2) -> Option<Rectangle> {
-    let slabs = slabs(polygon);
-    let mut search = Search { slabs: &slabs, middle, best: None };
+    // About the first corner, so that far origins cost no digits.
+    let origin = *polygon.outer.first()?;
+    let local = |ring: &Ring| ring.iter().map(|&p| p - origin).collect();
+    let polygon = Polygon { outer: local(&polygon.outer), holes: polygon.holes.iter().map(local).collect() };
+    let slabs = slabs(&polygon);
+    let mut search = Search { slabs: &slabs, middle: middle - origin, best: None };
     for (i, slab) in slabs.iter().enumerate() {
         for trapezoid in &slab.trapezoids {
             search.extend(i, trapezoid, i, trapezoid, f64::NEG_INFINITY, f64::INFINITY);
         }
     }
-    search.best
+    search.best.map(|r| Rectangle { low: r.low + origin, high: r.high + origin })
 }
 
 /// Everything between two neighbouring vertical lines.

@@ -14,6 +14,8 @@ pub mod extrude;
 pub mod grid;
 #[cfg(test)]
 mod hard_cases;
+#[cfg(test)]
+mod invariance;
 pub mod largest_rectangle;
 pub mod mesh;
 pub mod mesh_checks;

@@ -5,12 +5,13 @@ use glam::DVec2;
 /// Areas and sides within this share are equal.
 const EQUAL: f64 = 1e-9;
 
-/// Direction (length 1) of the longer side of the rectangle of least area around the points; of equals, and of a
-/// square's sides, the one nearest to +-x. One side lies on the convex hull (Freeman, Shapira 1975). `None` if all
+/// Direction (length 1) of the longer side of the rectangle of least area around the points; of equals the
+/// longest (all those on a triangle's sides are equal), of a square's sides the one nearest to +-x. One side lies on the convex hull (Freeman, Shapira 1975). `None` if all
 /// points are one.
 pub fn least_around(points: &[DVec2]) -> Option<DVec2> {
     let hull = convex_hull(points);
-    let mut best: Option<(f64, DVec2)> = None;
+    // (area, length, direction)
+    let mut best: Option<(f64, f64, DVec2)> = None;
     for i in 0..hull.len() {
         let Some(d) = (hull[(i + 1) % hull.len()] - hull[i]).try_normalize() else { continue };
         let (long, wide) = (extent(&hull, d), extent(&hull, d.perp()));
@@ -19,16 +20,20 @@ pub fn least_around(points: &[DVec2]) -> Option<DVec2> {
         } else {
             d
         };
-        let area = long * wide;
-        let better = best.is_none_or(|(least, direction)| {
-            let equal = (area - least).abs() <= EQUAL * least;
-            if equal { longer.x.abs() > direction.x.abs() + EQUAL } else { area < least }
+        let (area, length) = (long * wide, long.max(wide));
+        let better = best.is_none_or(|(least, longest, direction)| {
+            let equal = |a: f64, b: f64| (a - b).abs() <= EQUAL * b;
+            match (equal(area, least), equal(length, longest)) {
+                (true, true) => longer.x.abs() > direction.x.abs() + EQUAL,
+                (true, false) => length > longest,
+                (false, _) => area < least,
+            }
         });
         if better {
-            best = Some((area, longer));
+            best = Some((area, length, longer));
         }
     }
-    best.map(|(_, direction)| direction)
+    best.map(|(_, _, direction)| direction)
 }
 
 fn extent(points: &[DVec2], d: DVec2) -> f64 {
@@ -80,6 +85,15 @@ mod tests {
         for angle in [0.0, 0.3, 1.1, -0.7] {
             let found = least_around(&turned(&l, angle)).expect("an extent");
             assert!(found.perp_dot(turned(&[(1.0, 0.0)], angle)[0]).abs() < 1e-12, "{angle}: {found}");
+        }
+    }
+
+    #[test]
+    fn a_triangle_lies_along_its_longest_side() {
+        let triangle = [(48.0, 0.0), (12.0, 0.0), (12.0, -12.0)];
+        for angle in [0.0, 0.3, 1.1, 2.5] {
+            let found = least_around(&turned(&triangle, angle)).expect("an extent");
+            assert!(found.perp_dot(turned(&[(36.0, 12.0)], angle)[0]).abs() < 1e-9, "{angle}: {found}");
         }
     }
 

@@ -70,7 +70,7 @@ fn frame(polygon: &Polygon, edge: usize) -> (DVec2, DVec2) {
 fn reach(polygon: &Polygon, edge: usize, limit: &Limit) -> f64 {
     let (start, inward) = frame(polygon, edge);
     let across = polygon.outer.iter().map(|&p| (p - start).dot(inward)).fold(0.0, f64::max);
-    limit.base + across * libm::tan(limit.angle.to_radians()) * 1.01 + SAME
+    limit.base + across * (libm::tan(limit.angle.to_radians()) * 1.01 + SAME)
 }
 
 /// The plane over an edge; the body is behind it.

@@ -57,8 +57,8 @@ pub enum EnvelopeError {
     Skeleton(#[from] SkeletonError),
 }
 
-/// Heights this near are one, metres.
-const SAME: f64 = 1e-6;
+/// Heights this near are one, as a share of the greatest; so are corners of an outline, as a share of its extent.
+const SAME: f64 = 1e-7;
 
 /// The body under `limits` (one per edge; missing: upright) up to `height`. Angles of 0 and less end it at their base.
 ///
@@ -67,17 +67,18 @@ const SAME: f64 = 1e-6;
 pub fn envelope(polygon: &Polygon, limits: &[Limit], height: f64) -> Result<Envelope, EnvelopeError> {
     let flat = limits.iter().filter(|l| l.angle <= 0.0).map(|l| l.base);
     let height = flat.fold(height, f64::min);
-    if !(height.is_finite() && height >= SAME) {
+    if !(height.is_finite() && height > 0.0) {
         return Err(EnvelopeError::NoRoom(height));
     }
     if convex::is_strictly_convex(polygon) {
         return convex::over(polygon, limits, height).ok_or(EnvelopeError::NoRoom(height));
     }
+    let same = SAME * height;
     let mut breaks: Vec<f64> = limits.iter().filter(|l| l.angle < 90.0).map(|l| l.base).collect();
     breaks.extend([0.0, height]);
     breaks.retain(|&z| (0.0..=height).contains(&z));
     breaks.sort_by(f64::total_cmp);
-    breaks.dedup_by(|b, a| *b - *a < SAME);
+    breaks.dedup_by(|b, a| *b - *a < same);
     if let Some(last) = breaks.last_mut() {
         *last = height;
     }
@@ -87,7 +88,7 @@ pub fn envelope(polygon: &Polygon, limits: &[Limit], height: f64) -> Result<Enve
     for step in breaks.windows(2) {
         let (from, to) = (step[0], step[1]);
         let speed = |edge: usize| match limits.get(edge) {
-            Some(l) if l.angle < 90.0 && l.base < from + SAME => libm::tan((90.0 - l.angle).to_radians()),
+            Some(l) if l.angle < 90.0 && l.base < from + same => libm::tan((90.0 - l.angle).to_radians()),
             _ => 0.0,
         };
         let mut next = Vec::new();
@@ -232,7 +233,7 @@ impl Body {
             }
         }
         let extent = ring.points.iter().fold(0.0, |m, p| f64::max(m, p.distance(ring.points[0])));
-        if ring.points.len() < 3 || signed_area(&ring.points).abs() <= SAME * extent * SAME {
+        if ring.points.len() < 3 || signed_area(&ring.points).abs() <= (SAME * extent).powi(2) {
             self.add(Part::Top, vec![ring.points.iter().map(|&p| (p, height)).collect()]);
             return Ok(None);
         }

@@ -208,8 +208,9 @@ fn clip_to_box(mut ring: Ring, limit: f64) -> Ring {
                 out.push(a);
             }
             if (room(a) >= 0.0) != (room(b) >= 0.0) {
+                // Exactly on this side of the box; the other coordinate may still lie beyond it.
                 let cut = a + (b - a) * (room(a) / (room(a) - room(b)));
-                out.push(cut.clamp(DVec2::splat(-limit), DVec2::splat(limit)));
+                out.push(cut * (DVec2::ONE - axis) + axis * (sign * limit));
             }
         }
         ring = out;

@@ -140,6 +140,17 @@ fn a_hole_far_beyond_the_outline_is_clipped() {
     assert_eq!((got.polygons.len(), got.area_after), (2, 80.0));
 }
 
+/// A corner beyond the box along both axes: the cuts along one may not move what the other cuts.
+#[test]
+fn a_hole_across_a_corner_of_the_box_keeps_its_lines() {
+    let outline = ring(&[(5.5, 0.0), (0.0, 0.0), (0.0, 0.5)]);
+    let hole = ring(&[(2.5, 0.5), (0.0, 0.0), (-3.5, -6.5)]);
+    let got = repair(&[outline, hole], &KERNEL);
+    // By hand: the hole takes the quadrilateral (0, 0), (29/14, 0), (385/166, 24/83), (55/32, 11/32).
+    let taken = (29.0 / 14.0 * (24.0 / 83.0) + 385.0 / 166.0 * (11.0 / 32.0) - 55.0 / 32.0 * (24.0 / 83.0)) / 2.0;
+    assert!((got.area_after - (1.375 - taken)).abs() < 1e-7, "{}", got.area_after);
+}
+
 fn any_coordinate() -> impl Strategy<Value = f64> {
     prop_oneof![
         8 => (-8i32..8).prop_map(f64::from),

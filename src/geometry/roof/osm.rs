@@ -165,13 +165,14 @@ fn takes_index(polygon: &Polygon) -> bool {
     polygon.holes.is_empty() && super::gable::is_convex(polygon)
 }
 
-/// The edge that a ridge in this direction ends over; `None` where edges cannot be chosen.
+/// The index (as [`gable`] takes it) of the edge that a ridge in this direction ends over; `None` without edges.
 fn end_over(polygon: &Polygon, along: DVec2) -> Option<i64> {
     let edges = Edges::of(polygon);
     let count = polygon.outer.len();
     let facing = |e: &usize| edges.normal(*e).dot(along).abs();
     let end = (0..count).rev().max_by(|p, q| facing(p).total_cmp(&facing(q)))?;
-    Some(end as i64)
+    // On a triangle the index is that of the vertex opposite.
+    Some(if count == 3 { (end + 2) % 3 } else { end } as i64)
 }
 
 /// The gable roof of slope 1 with its ridge turned, where the outline allows.
@@ -187,14 +188,18 @@ fn turned(polygon: &Polygon, facing: Facing) -> Result<PlanRoof, RoofError> {
     }
 }
 
-/// Where the long plane of a saltbox falls to: across the ridge, on the side of the first edge if nothing else is asked.
+/// Where the long plane of a saltbox falls to: across the ridge, on the side of the first edge if nothing else is
+/// asked.
 fn long_side(polygon: &Polygon, facing: Facing) -> Result<DVec2, RoofError> {
     let facing = if facing == Facing::Natural { Facing::Along } else { facing };
     let Some(along) = ridge_direction(polygon, facing)? else { return Ok(DVec2::NEG_Y) };
     let across = along.perp();
+    let first = Edges::of(polygon).normal(0);
     let wanted = match facing {
         Facing::Downhill(downhill) => downhill,
-        _ => -Edges::of(polygon).normal(0),
+        // Where the first edge runs across the ridge: the way it runs, so that turned outlines agree.
+        _ if across.dot(first).abs() < 1e-6 => -first.perp(),
+        _ => -first,
     };
     Ok(if across.dot(wanted) < 0.0 { -across } else { across })
 }

@@ -7,6 +7,9 @@ use super::{Roof, RoofError, RoofPart, Slope};
 use crate::geometry::polygon::Polygon;
 use crate::geometry::skeleton::SkeletonError;
 
+/// Cosines of edges that face alike differ by no more than this.
+const ALIKE: f64 = 1e-9;
+
 /// One plane through edge `index` (modulo the edges of the outer ring), rising away from it; a negative angle falls. The
 /// whole is lifted so that its lowest point lies on the polygon (CGA reference 4.9).
 ///
@@ -29,10 +32,13 @@ pub fn shed(polygon: &Polygon, slope: Slope, index: i64) -> Result<Roof, RoofErr
 pub fn skillion(polygon: &Polygon, slope: Slope, downhill: DVec2) -> Result<Roof, RoofError> {
     let uphill = -downhill.try_normalize().ok_or(RoofError::Direction(downhill))?;
     let edges = Edges::of(polygon);
-    // The eave is the edge that faces downhill most.
-    let facing = |&e: &usize| (edges.normal(e).dot(uphill), std::cmp::Reverse(e));
-    let eave =
-        (0..polygon.outer.len()).max_by(|p, q| facing(p).0.total_cmp(&facing(q).0).then(facing(p).1.cmp(&facing(q).1)));
+    // The eave is the edge that faces downhill most; of edges alike the one farthest down, so that turned outlines agree.
+    let facing = |e: usize| edges.normal(e).dot(uphill);
+    let most = (0..polygon.outer.len()).map(facing).fold(f64::NEG_INFINITY, f64::max);
+    let alike = (0..polygon.outer.len()).filter(|&e| facing(e) >= most - ALIKE);
+    let place = |p: DVec2| uphill.dot(p - polygon.outer[0]);
+    let height = |e: usize| place(edges.start(e)).min(place(edges.end(e)));
+    let eave = alike.min_by(|&p, &q| height(p).total_cmp(&height(q)));
     inclined(polygon, slope, uphill, eave.ok_or(SkeletonError::TooFewPoints)?)
 }
 
