@@ -141,14 +141,23 @@ pub fn degenerate_triangles(mesh: &Mesh) -> Vec<(usize, usize)> {
     found
 }
 
-/// Faces with fewer triangles than n + 2 h - 2: their loops touch or repeat themselves or
-/// (not always seen here) cross.
+/// Faces whose triangles do not add up to their area, to 1e-9 of their girth squared, or that have none: their loops
+/// cross. Loops that touch are filled.
 pub fn faces_not_triangulated(mesh: &Mesh) -> Vec<usize> {
-    let missing = |&i: &usize| {
+    let unfilled = |&i: &usize| {
         let face = &mesh.faces[i];
-        triangulate_face(mesh, face).len() + 2 < face.corners().count() + 2 * face.holes.len()
+        let normal = mesh.normal(face);
+        let corners: Vec<DVec3> = face.corners().map(|c| mesh.positions[c as usize]).collect();
+        let part = |t: &[u32; 3]| {
+            let [a, b, c] = t.map(|k| corners[k as usize]);
+            (b - a).cross(c - a).dot(normal) / 2.0
+        };
+        let parts: Vec<f64> = triangulate_face(mesh, face).iter().map(part).collect();
+        let length = |(a, b): Edge| mesh.positions[a as usize].distance(mesh.positions[b as usize]);
+        let girth: f64 = face.edges().map(length).sum();
+        parts.is_empty() || (pairwise_sum(&parts) - mesh.area(face)).abs() > 1e-9 * girth * girth
     };
-    (0..mesh.faces.len()).filter(missing).collect()
+    (0..mesh.faces.len()).filter(unfilled).collect()
 }
 
 /// Whether every edge is run equally often each way and at least one is; vertices count as the same by index.

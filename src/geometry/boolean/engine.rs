@@ -13,7 +13,8 @@ use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::core::solver::Solver;
 use i_overlay::i_float::int::point::IntPoint;
 
-use crate::geometry::polygon::signed_area;
+use crate::geometry::polygon::{Polygon, signed_area};
+use crate::geometry::polygon_checks::is_strictly_valid;
 
 /// A point in grid steps.
 pub type GridPoint = [i64; 2];
@@ -76,16 +77,46 @@ impl Keepsakes {
         }
     }
 
-    /// Drops rounding dust and straight points that the input did not have; then rings start at, and come in the
-    /// order of, their first input point.
+    /// Drops rounding dust, needles of such dust, and straight points that the input did not have; then rings start at,
+    /// and come in the order of, their first input point.
     pub fn tidy(&self, shapes: &mut Vec<GridShape>) {
         shapes.retain(|s| !is_rounding_dust(&s[0]));
         for shape in &mut *shapes {
             shape.retain(|r| !is_rounding_dust(r));
+            self.drop_needles(shape);
             shape.iter_mut().for_each(|r| self.tidy_ring(r));
             shape[1..].sort_by_key(|r| self.place(r[0]));
         }
         shapes.sort_by_key(|s| self.place(s[0][0]));
+    }
+
+    /// Takes off what a ring goes there and back along, no wider than rounding, unless the shape would touch itself.
+    fn drop_needles(&self, shape: &mut GridShape) {
+        if !shape.iter().any(|r| needle(r).is_some()) {
+            return;
+        }
+        let mut without = shape.clone();
+        for ring in &mut without {
+            while let Some(tip) = needle(ring) {
+                self.drop_needle(ring, tip);
+            }
+        }
+        let points = |r: &GridRing| r.iter().map(|p| DVec2::new(p[0] as f64, p[1] as f64)).collect();
+        let plain = Polygon { outer: points(&without[0]), holes: without[1..].iter().map(points).collect() };
+        if is_strictly_valid(&plain) {
+            *shape = without;
+        }
+    }
+
+    /// Its two ends are one where only rounding keeps them apart: that of the input.
+    fn drop_needle(&self, ring: &mut GridRing, tip: usize) {
+        let n = ring.len();
+        let (before, after) = ((tip + n - 1) % n, (tip + 1) % n);
+        let apart = |axis: usize| (ring[before][axis] - ring[after][axis]).abs();
+        let other = if self.place(ring[before]) <= self.place(ring[after]) { after } else { before };
+        let both = apart(0).max(apart(1)) <= DUST_WIDTH;
+        let mut number = 0..;
+        ring.retain(|_| number.next().is_none_or(|i| i != tip && !(both && i == other)));
     }
 
     fn place(&self, p: GridPoint) -> (usize, GridPoint) {
@@ -107,6 +138,19 @@ impl Keepsakes {
         let first = (0..ring.len()).min_by_key(|&i| self.place(ring[i]));
         ring.rotate_left(first.unwrap_or(0));
     }
+}
+
+/// Grid steps that rounding alone may put between two points.
+const DUST_WIDTH: i64 = 2;
+
+/// A corner where a ring of more than three turns back along the edge it came by, but for rounding.
+fn needle(ring: &GridRing) -> Option<usize> {
+    let n = ring.len();
+    let turns_back = |&i: &usize| {
+        let [a, b, c] = [n - 1, 0, 1].map(|k| ring[(i + k) % n]);
+        (b[0] - a[0]) * (c[0] - b[0]) + (b[1] - a[1]) * (c[1] - b[1]) < 0 && is_rounding_dust(&vec![a, b, c])
+    };
+    if n > 3 { (0..n).find(turns_back) } else { None }
 }
 
 /// Whether a ring is on the mean no wider than two grid steps: it may come from rounding alone.

@@ -3,7 +3,8 @@
 //!
 //! Corners within a rounding of each other are one; corners on an edge of another face divide it. An edge is open if it
 //! is not run as often forth as back. Open edges that lie on another face are attached to it: the body is closed there.
-//! A face that others are attached to continues beyond the body; its free edges are those of a sheet, not of a hole.
+//! A face that others are attached to continues beyond the body, and so do those that hang on such faces alone: their
+//! free edges are those of a sheet, not of a hole. What stands on a sheet (stumps on ash) may reach to the sheet's border.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -56,12 +57,12 @@ pub fn bodies(mesh: &Mesh) -> Bodies {
     for faces in groups {
         let part =
             Mesh { positions: mesh.positions.clone(), faces: faces.iter().map(|&f| mesh.faces[f].clone()).collect() };
-        let edges = seams.edges.iter().filter(|(_, e)| faces.binary_search(&e.faces[0]).is_ok());
+        let own = seams.edges.values().filter(|e| faces.binary_search(&e.runs[0].0).is_ok());
         let (mut open, mut flipped, mut crowded) = (0, 0, 0);
-        for (_, edge) in edges.filter(|(_, e)| e.forth != e.back && !e.is_attached) {
-            match edge.forth + edge.back {
-                1 => open += usize::from(!seams.is_sheet[edge.faces[0]]),
-                2 => flipped += 1,
+        for seam in own.filter(|e| !seams.is_sound(e)) {
+            match seam.runs[..] {
+                [(face, _)] => open += usize::from(!seams.is_sheet[face]),
+                [_, _] => flipped += 1,
                 _ => crowded += 1,
             }
         }
@@ -94,10 +95,13 @@ fn has_inside(part: &Mesh) -> bool {
 /// A piece of an edge between two corners, with none between them.
 #[derive(Clone, Debug, Default)]
 struct Seam {
-    forth: usize,
-    back: usize,
-    faces: Vec<usize>,
+    /// The faces that run it, and whether from the lesser corner to the greater.
+    runs: Vec<(usize, bool)>,
     is_attached: bool,
+}
+
+fn is_balanced(runs: impl Iterator<Item = bool>) -> bool {
+    runs.map(|forth| if forth { 1 } else { -1 }).sum::<i32>() == 0
 }
 
 /// How faces hang together.
@@ -106,6 +110,8 @@ struct Seams {
     edges: BTreeMap<(u32, u32), Seam>,
     /// By face: whether it continues beyond the body.
     is_sheet: Vec<bool>,
+    /// By face: whether something stands on it, on the side that it faces.
+    is_ground: Vec<bool>,
     /// By face: a face of lesser number that it hangs together with, or itself.
     leader: Vec<usize>,
 }
@@ -123,19 +129,27 @@ impl Seams {
                 let stops = stops(at, &tree, &corners, (a, b), tolerance);
                 for w in stops.windows(2) {
                     let seam = edges.entry((w[0].min(w[1]), w[0].max(w[1]))).or_default();
-                    if w[0] < w[1] {
-                        seam.forth += 1
-                    } else {
-                        seam.back += 1
-                    }
-                    seam.faces.push(number);
+                    seam.runs.push((number, w[0] < w[1]));
                 }
             }
         }
+        let none = vec![false; mesh.faces.len()];
         let leader = (0..mesh.faces.len()).collect();
-        let mut seams = Seams { tolerance, edges, is_sheet: vec![false; mesh.faces.len()], leader };
+        let mut seams = Seams { tolerance, edges, is_sheet: none.clone(), is_ground: none, leader };
         seams.attach(mesh);
+        seams.spread();
         seams
+    }
+
+    /// Whether a seam is no defect: run as often forth as back, attached, or the foot of what stands on a sheet's border.
+    fn is_sound(&self, seam: &Seam) -> bool {
+        let bodily: Vec<bool> = seam.runs.iter().filter(|(face, _)| !self.is_ground[*face]).map(|r| r.1).collect();
+        let is_foot = match bodily.len() {
+            0 => false,
+            1 => seam.runs.len() > 1,
+            _ => is_balanced(bodily.iter().copied()),
+        };
+        seam.is_attached || is_foot || is_balanced(seam.runs.iter().map(|r| r.1))
     }
 
     /// Finds the open edges that lie on other faces, and joins what hangs together.
@@ -145,24 +159,50 @@ impl Seams {
         let tree = BoxTree::new(all.iter().map(|(_, t)| bounds(t)).collect());
         let mut joins = Vec::new();
         for (&(a, b), seam) in &mut self.edges {
-            joins.extend(seam.faces.windows(2).map(|w| (w[0], w[1])));
-            if seam.forth + seam.back != 1 {
-                continue;
-            }
-            let middle = (mesh.positions[a as usize] + mesh.positions[b as usize]) / 2.0;
+            joins.extend(seam.runs.windows(2).map(|w| (w[0].0, w[1].0)));
+            let [(own, forth)] = seam.runs[..] else { continue };
+            let (p, q) = (mesh.positions[a as usize], mesh.positions[b as usize]);
+            let middle = (p + q) / 2.0;
             let near = tree.touching(&Bounds { lo: middle, hi: middle }.grown(self.tolerance));
-            let under = near.into_iter().map(|i| &all[i]).find(|(face, t)| {
-                !seam.faces.contains(face) && nearest_point(t, middle).distance(middle) <= self.tolerance
-            });
-            if let Some((face, _)) = under {
+            let under = near
+                .into_iter()
+                .map(|i| &all[i])
+                .find(|(face, t)| *face != own && nearest_point(t, middle).distance(middle) <= self.tolerance);
+            if let Some(&(face, _)) = under {
+                let along = if forth { q - p } else { p - q };
+                let inwards = mesh.normal(&mesh.faces[own]).cross(along).normalize_or_zero();
                 seam.is_attached = true;
-                self.is_sheet[*face] = true;
-                joins.push((seam.faces[0], *face));
+                self.is_sheet[face] = true;
+                self.is_ground[face] |= inwards.dot(mesh.normal(&mesh.faces[face])) > UPRIGHT;
+                joins.push((own, face));
             }
         }
         for (f, g) in joins {
             let (f, g) = (self.find(f), self.find(g));
             self.leader[f.max(g)] = f.min(g);
+        }
+    }
+
+    /// What hangs on sheets alone and has a free edge is a sheet too.
+    fn spread(&mut self) {
+        let mut hangs: Vec<(bool, BTreeSet<usize>)> = vec![(false, BTreeSet::new()); self.is_sheet.len()];
+        for seam in self.edges.values() {
+            for &(face, _) in &seam.runs {
+                hangs[face].0 |= seam.runs.len() == 1 && !seam.is_attached;
+                hangs[face].1.extend(seam.runs.iter().map(|r| r.0).filter(|&other| other != face));
+            }
+        }
+        let hangs_on_sheets = |sheets: &[bool], face: usize| {
+            let (is_free, others) = &hangs[face];
+            *is_free && !others.is_empty() && others.iter().all(|&other| sheets[other])
+        };
+        loop {
+            let more = |&face: &usize| !self.is_sheet[face] && hangs_on_sheets(&self.is_sheet, face);
+            let more: Vec<usize> = (0..hangs.len()).filter(more).collect();
+            if more.is_empty() {
+                return;
+            }
+            more.into_iter().for_each(|face| self.is_sheet[face] = true);
         }
     }
 
@@ -188,6 +228,9 @@ impl Seams {
         groups.into_values().collect()
     }
 }
+
+/// Least cosine between a wall and the normal of the face that it stands on.
+const UPRIGHT: f64 = 0.1;
 
 /// By vertex the first vertex within `tolerance` of it.
 fn places(mesh: &Mesh, tolerance: f64) -> Vec<u32> {
@@ -275,6 +318,33 @@ mod tests {
         let mut gap = block(TOP);
         gap.faces.remove(3);
         assert_eq!(found(&gap), (0, 1, vec![(Defect::OpenEdge, 4)]));
+    }
+
+    #[test]
+    fn a_piece_of_roof_that_lies_beyond_the_walls_is_no_hole() {
+        let mut wide = block(&[[-0.5, 1.0, 0.5], [2.5, 1.0, 0.5], [2.5, 1.0, -1.5], [-0.5, 1.0, -1.5]]);
+        let beyond = mesh(&[&[[2.5, 1.0, 0.5], [3.0, 1.0, 0.0], [3.0, 1.0, -1.0], [2.5, 1.0, -1.5]]]);
+        wide.faces.push(Face::new((wide.positions.len() as u32..).take(4).collect::<Vec<u32>>()));
+        wide.positions.extend(beyond.positions);
+        assert_eq!(found(&wide), (1, 0, vec![]));
+    }
+
+    #[test]
+    fn stumps_without_floors_stand_on_a_sheet_up_to_its_border() {
+        let mut stump = block(TOP);
+        stump.faces.remove(0);
+        let sheet = |z: [f64; 2]| mesh(&[&[[0.0, 0.0, z[0]], [5.0, 0.0, z[0]], [5.0, 0.0, z[1]], [0.0, 0.0, z[1]]]]);
+        let on = |below: Mesh| {
+            let mut both = stump.clone();
+            let first = both.positions.len() as u32;
+            both.faces.push(Face::new((first..first + 4).collect::<Vec<u32>>()));
+            both.positions.extend(below.positions);
+            bodies(&both).defects
+        };
+        assert_eq!(on(sheet([0.0, -3.0])), BTreeMap::new());
+        // The floor that is missing, but facing up.
+        let up = mesh(&[&[[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [2.0, 0.0, -1.0], [0.0, 0.0, -1.0]]]);
+        assert_eq!(on(up), BTreeMap::from([(Defect::FlippedFace, 5)]));
     }
 
     #[test]

@@ -115,11 +115,16 @@ fn is_end(plan: &PlanRoof, edges: &Edges, f: usize) -> bool {
     count == 3
 }
 
-/// Where the planes (of slope 1) of an edge's neighbours are equally high over the edge.
+/// A neighbour that turns off by less than a part in so many leaves no room for a pediment beside its wall.
+const LEAST_TURN: f64 = 1e-3;
+
+/// Where the planes (of slope 1) of an edge's neighbours are equally high over the edge; nowhere if the edge goes on
+/// almost straight, which no end of a building does.
 fn tip_over(edges: &Edges, edge: usize) -> Option<PlanNode> {
     let (before, after) = (edges.before(edge), edges.after(edge));
     let (at_start, at_end) = (edges.distance(after, edges.start(edge)), edges.distance(before, edges.end(edge)));
-    if !(at_start > 0.0 && at_end > 0.0) {
+    let least = LEAST_TURN * edges.start(edge).distance(edges.end(edge));
+    if !(at_start > least && at_end > least) {
         return None;
     }
     let u = at_start / (at_start + at_end);

@@ -63,8 +63,8 @@ fn same_corners(a: &Face, b: &Face) -> bool {
     a.outer.len() == b.outer.len() && sorted(a) == sorted(b)
 }
 
-/// Vertices within `distance` become the first of them; corners that fall together become one. Returns what each
-/// vertex became.
+/// Vertices within `distance` become the first of them; corners that fall together become one, and an outline that
+/// thereby runs there and back loses the way. Returns what each vertex became.
 fn merge_vertices(mesh: &mut Mesh, distance: f64) -> Vec<u32> {
     let cell = |p: DVec3| (p / distance).floor().as_i64vec3().to_array();
     let mut cells: BTreeMap<[i64; 3], Vec<u32>> = BTreeMap::new();
@@ -85,9 +85,23 @@ fn merge_vertices(mesh: &mut Mesh, distance: f64) -> Vec<u32> {
     }
     for face in &mut mesh.faces {
         face.outer.iter_mut().chain(face.holes.iter_mut().flatten()).for_each(|v| *v = place[*v as usize]);
-        remove_corners(face, |ring, i| ring[i] == ring[(i + ring.len() - 1) % ring.len()] && ring.len() > 1);
+        let mut before = usize::MAX;
+        while face.corners().count() < before {
+            before = face.corners().count();
+            remove_corners(face, |ring, i| ring[i] == ring[(i + ring.len() - 1) % ring.len()] && ring.len() > 1);
+            remove_corners(face, is_needle);
+            remove_corners(face, |ring, _| ring.len() < 3);
+        }
+        face.holes.retain(|hole| !hole.is_empty());
     }
     place
+}
+
+/// Whether a loop comes to this corner and leaves it along one edge. Of two such corners in a row only the first.
+fn is_needle(ring: &[u32], i: usize) -> bool {
+    let at = |k: usize| ring[(i + ring.len() + k) % ring.len()];
+    let tip = |k: usize| at(k + ring.len() - 1) == at(k + 1);
+    ring.len() > 2 && tip(0) && !(i > 0 && tip(ring.len() - 1))
 }
 
 /// Removes the corners of every loop for which the test holds, with their texture coordinates.

@@ -105,6 +105,17 @@ fn clean_up_merges_and_dissolves() {
     near(&areas(&tree, "A"), &[60.0]);
 }
 
+/// A fin of 0.1 m, whose two sides fall together: way/241820131 in Queens Village had its roof refused for it.
+#[test]
+fn cleanup_leaves_no_way_there_and_back() {
+    let fin = [(0.0, 0.0), (10.0, 0.0), (10.0, -6.0), (5.1, -6.0), (5.1, -8.0), (5.0, -8.0), (5.0, -6.0), (0.0, -6.0)];
+    let tree = run("Lot --> cleanupGeometry(vertices, 0.2) A.", &fin);
+    assert_eq!(counts(&tree), (1, 4));
+    near(&areas(&tree, "A"), &[60.0]);
+    let roof = run("Lot --> cleanupGeometry(vertices, 0.2) roofGable(30) A.", &fin);
+    near(&[volume(&roof.leaves[0].mesh)], &[10.0 * 6.0 * 3.0 * 30f64.to_radians().tan() / 2.0]);
+}
+
 #[test]
 fn envelopes_of_every_signature() {
     let volume_of = |call: &str| {
