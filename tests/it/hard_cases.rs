@@ -160,8 +160,8 @@ fn faces(view: &View, roof: &Roof) -> String {
         }
         let ring = face.outer.iter().map(|&n| roof.mesh.positions[n as usize]);
         let path = view.path(ring.map(|p| DVec2::new(p.x, -p.z)));
-        let shade = (150.0 + 100.0 * roof.mesh.normal(face).dot(light)).round();
-        writeln!(svg, "<path d=\"{path}\" fill=\"rgb({shade} {shade} {shade})\"/>").expect("text");
+        let shade = (150.0 + 100.0 * roof.mesh.normal(face).dot(light)).round() as u8;
+        writeln!(svg, "<path d=\"{path}\" fill=\"#{shade:02x}{shade:02x}{shade:02x}\"/>").expect("text");
     }
     svg + "</g>\n"
 }
