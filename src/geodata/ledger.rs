@@ -15,6 +15,8 @@ pub enum Outcome {
     FellBack(String),
     /// Not used; says why.
     Skipped(String),
+    /// Used with defects that mesh checks found, where they were asked for; says which.
+    Invalid(String),
 }
 
 /// One line: a feature that was not simply ok.
@@ -33,21 +35,34 @@ pub struct Ledger {
     pub repaired: usize,
     pub fell_back: usize,
     pub skipped: usize,
+    /// Only where meshes were checked.
+    #[serde(skip_serializing_if = "is_none")]
+    pub invalid: usize,
     pub entries: Vec<Entry>,
     /// How many values were assumed because tags were missing: `height: default 6 m` → count, sorted.
     pub assumptions: BTreeMap<String, usize>,
 }
 
+fn is_none(count: &usize) -> bool {
+    *count == 0
+}
+
 impl Ledger {
-    pub fn record(&mut self, feature: impl ToString, outcome: Outcome) {
+    /// How many features had this kind of outcome.
+    fn count(&mut self, outcome: &Outcome) -> &mut usize {
         match outcome {
-            Outcome::Ok => {
-                self.ok += 1;
-                return;
-            }
-            Outcome::Repaired(_) => self.repaired += 1,
-            Outcome::FellBack(_) => self.fell_back += 1,
-            Outcome::Skipped(_) => self.skipped += 1,
+            Outcome::Ok => &mut self.ok,
+            Outcome::Repaired(_) => &mut self.repaired,
+            Outcome::FellBack(_) => &mut self.fell_back,
+            Outcome::Skipped(_) => &mut self.skipped,
+            Outcome::Invalid(_) => &mut self.invalid,
+        }
+    }
+
+    pub fn record(&mut self, feature: impl ToString, outcome: Outcome) {
+        *self.count(&outcome) += 1;
+        if outcome == Outcome::Ok {
+            return;
         }
         self.entries.push(Entry { feature: feature.to_string(), outcome });
     }
@@ -57,25 +72,14 @@ impl Ledger {
         let known: BTreeMap<String, usize> =
             self.entries.iter().enumerate().map(|(i, e)| (e.feature.clone(), i)).collect();
         for (feature, outcome) in revisions.into_iter().filter(|(_, outcome)| *outcome != Outcome::Ok) {
-            let entry = known.get(&feature).map(|i| &mut self.entries[*i]);
-            match entry.as_ref().map(|e| &e.outcome) {
-                None | Some(Outcome::Ok) => self.ok = self.ok.saturating_sub(1),
-                Some(Outcome::Repaired(_)) => self.repaired -= 1,
-                Some(Outcome::FellBack(_)) => self.fell_back -= 1,
-                Some(Outcome::Skipped(_)) => self.skipped -= 1,
-            }
-            match entry {
-                Some(entry) => {
-                    entry.outcome = outcome;
-                    match &entry.outcome {
-                        Outcome::Ok => self.ok += 1,
-                        Outcome::Repaired(_) => self.repaired += 1,
-                        Outcome::FellBack(_) => self.fell_back += 1,
-                        Outcome::Skipped(_) => self.skipped += 1,
-                    }
-                }
-                None => self.record(feature, outcome),
-            }
+            let Some(&known) = known.get(&feature) else {
+                self.ok = self.ok.saturating_sub(1);
+                self.record(feature, outcome);
+                continue;
+            };
+            *self.count(&outcome) += 1;
+            let before = std::mem::replace(&mut self.entries[known].outcome, outcome);
+            *self.count(&before) -= 1;
         }
     }
 
@@ -89,6 +93,7 @@ impl Ledger {
         self.repaired += other.repaired;
         self.fell_back += other.fell_back;
         self.skipped += other.skipped;
+        self.invalid += other.invalid;
         self.entries.extend(other.entries);
         for (what, count) in other.assumptions {
             *self.assumptions.entry(what).or_default() += count;

@@ -96,6 +96,13 @@ pub fn build_scene(
     for missing in textures.missing {
         ledger.record(format!("texture {missing}"), Outcome::FellBack("drawn without texture".to_owned()));
     }
+    let validation = (checks == Checks::All).then(|| {
+        let features = derived.checked.into_iter().map(|(feature, bodies)| FeatureChecks::new(feature, bodies));
+        Validation { scene: spec.name.clone(), features: features.collect() }
+    });
+    if let Some(validation) = &validation {
+        ledger.revise(validation.features.iter().map(|f| (f.feature.clone(), f.outcome())));
+    }
     let reports = SceneReports { scene: spec.name.clone(), features: derived.reports };
     let record = record(
         &scene,
@@ -109,10 +116,6 @@ pub fn build_scene(
         features.len(),
     );
     progress.end(&format!("{} triangles", record.triangles));
-    let validation = (checks == Checks::All).then(|| {
-        let features = derived.checked.into_iter().map(|(feature, bodies)| FeatureChecks::new(feature, bodies));
-        Validation { scene: spec.name.clone(), features: features.collect() }
-    });
     let (diagnostics, prints) = (derived.diagnostics, derived.prints);
     Ok(BuiltScene { scene, frame, terrain, record, reports, validation, files, diagnostics, prints })
 }

@@ -7,6 +7,7 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
+use crate::geodata::ledger::Outcome;
 use crate::geometry::Mesh;
 use crate::geometry::mesh_checks::{Bodies, Defect, bodies};
 use crate::interpreter::tree::Leaf;
@@ -71,6 +72,12 @@ impl FeatureChecks {
     pub(super) fn new(feature: String, bodies: Bodies) -> FeatureChecks {
         let defects = bodies.defects.into_iter().map(|(d, n)| (d.name(), n)).collect();
         FeatureChecks { feature, closed_bodies: bodies.closed, open_surfaces: bodies.surfaces, defects }
+    }
+
+    /// What the ledger says of it.
+    pub(super) fn outcome(&self) -> Outcome {
+        let found: Vec<String> = self.defects.iter().map(|(name, count)| format!("{name} ({count})")).collect();
+        if found.is_empty() { Outcome::Ok } else { Outcome::Invalid(found.join(", ")) }
     }
 }
 

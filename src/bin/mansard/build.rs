@@ -98,8 +98,9 @@ pub fn tell(built: &BuiltScene, sources: &SourceMap, reporter: &Reporter) -> boo
         reporter.say(line);
     }
     let ledger = &built.record.ledger;
+    let invalid = if ledger.invalid > 0 { format!(", {} invalid", ledger.invalid) } else { String::new() };
     reporter.say(&format!(
-        "{:>10} {}: {} ok, {} repaired, {} fell back, {} skipped",
+        "{:>10} {}: {} ok, {} repaired, {} fell back, {} skipped{invalid}",
         "ledger", built.record.name, ledger.ok, ledger.repaired, ledger.fell_back, ledger.skipped
     ));
     let mut reasons: BTreeMap<String, Vec<&str>> = BTreeMap::new();
@@ -109,6 +110,7 @@ pub fn tell(built: &BuiltScene, sources: &SourceMap, reporter: &Reporter) -> boo
             Outcome::Repaired(what) => format!("repaired: {what}"),
             Outcome::FellBack(what) => format!("fell back: {what}"),
             Outcome::Skipped(why) => format!("skipped: {why}"),
+            Outcome::Invalid(found) => format!("invalid: {found}"),
         };
         reasons.entry(reason).or_default().push(&entry.feature);
     }
