@@ -35,6 +35,7 @@ mod solids;
 mod split_sizes;
 mod split_uv;
 mod splits;
+mod stages;
 mod strange_shapes;
 mod surfaces;
 mod tags;

@@ -151,6 +151,14 @@ mod stages {
     }
 
     #[test]
+    fn bool_share_edge() {
+        let (a, b) = ([rect(0.0, 0.0, 10.0, 10.0)], [rect(10.0, 0.0, 10.0, 10.0)]);
+        let joined = union(&a, &b).expect("sound");
+        assert_eq!((joined.len(), joined[0].outer.len(), area(&joined)), (1, 4, 200.0));
+        assert_eq!(intersection(&a, &b), Ok(Vec::new()));
+    }
+
+    #[test]
     fn bool_gap_1e_9() {
         let gap = 1e-9;
         let joined = union(&[rect(0.0, 0.0, 10.0, 10.0)], &[rect(10.0 + gap, 0.0, 10.0 - gap, 10.0)]).expect("sound");

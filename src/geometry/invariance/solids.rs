@@ -106,8 +106,10 @@ proptest! {
         solids_follow(&a, &b, &motion, by, 1e-8)?;
     }
 
+    /// Rectangles and Ls: where walls stand on one line, rounding at the height where they begin to recede decides who
+    /// passes whom.
     #[test]
-    fn envelopes_follow_exact_motions(p in footprints(), motion in exact(), seed in prop::array::uniform4((0.0..6.0f64, 20.0..120.0f64))) {
+    fn envelopes_follow_exact_motions(p in houses().prop_filter("walls on one line", |p| p.outer.len() <= 6), motion in exact(), seed in prop::array::uniform4((0.0..6.0f64, 20.0..120.0f64))) {
         let count: usize = p.rings().map(Vec::len).sum();
         let limits: Vec<Limit> = (0..count).map(|k| Limit { base: seed[k % 4].0, angle: seed[k % 4].1 }).collect();
         let higher = |l: &Limit| Limit { base: l.base * motion.scale, angle: l.angle };

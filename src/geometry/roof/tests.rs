@@ -1,5 +1,7 @@
 //! Closed forms of `cga-reference.md` §10.5 and the roof cases of `hard-cases/stages.json`.
 
+mod stages;
+
 use glam::{DVec2, DVec3};
 
 use super::*;

@@ -117,3 +117,34 @@ proptest! {
         }
     }
 }
+
+/// The stage cases of `../shared/hard-cases/stages.json` about sizes alone, each by its name.
+mod stages {
+    use super::*;
+
+    #[test]
+    fn split_floor_trap() {
+        check(0.3, vec![times(vec![abs(0.1)])], &[0.1; 3]);
+        let sizes = [0.1, 0.3, 0.7, 1.1, 1.3, 1.7, 2.2, 2.4, 2.6, 2.8, 3.1, 3.3, 3.6, 0.05];
+        for (k, s) in (1..=2000u32).flat_map(|k| sizes.map(|s| (k, s))) {
+            let pieces = resolve(&[times(vec![abs(s)])], f64::from(k) * s, 3000).expect("few pieces").slabs.len();
+            assert_eq!(pieces, k as usize, "{s}");
+        }
+    }
+
+    #[test]
+    fn split_million() {
+        let pieces = resolve(&[times(vec![abs(0.1)])], 100_000.0, 1_000_001).expect("as many as allowed").slabs;
+        assert_eq!(pieces.len(), 1_000_000);
+        for (i, slab) in pieces.iter().enumerate() {
+            assert!((slab.start - 0.1 * i as f64).abs() <= 1e-10, "{i}: {}", slab.start);
+        }
+        assert_eq!(pieces[999_999].end, 100_000.0);
+        assert_eq!(resolve(&[times(vec![abs(0.1)])], 100_000.0, 300_000), Err(TooMany));
+    }
+
+    #[test]
+    fn split_huge_scope() {
+        assert_eq!(resolve(&[times(vec![abs(1e-6)])], 1e6, 300_000), Err(TooMany));
+    }
+}
