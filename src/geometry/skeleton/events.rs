@@ -7,8 +7,9 @@
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-use super::line::{Moment, Place, determinant, time_numerator};
-use super::wavefront::{NONE, VertexId, Wavefront};
+use super::line::{Moment, determinant, time_numerator};
+use super::splits::{ReflexList, Split};
+use super::wavefront::{LineId, VertexId, Wavefront};
 
 /// A thing that may happen.
 #[derive(Clone, Copy, Debug)]
@@ -46,22 +47,16 @@ impl PartialEq for Event {
 
 impl Eq for Event {}
 
-/// The best split of a reflex vertex, with a number that tells it from its predecessors.
-#[derive(Clone, Copy, Debug, Default)]
-struct Split {
-    moment: Option<Moment>,
-    stamp: u32,
-}
-
 /// The queue of events and what it remembers of every vertex.
 #[derive(Debug)]
 pub(super) struct Events {
-    heap: BinaryHeap<Event>,
+    pub(super) heap: BinaryHeap<Event>,
     /// When the fragment that starts in a vertex vanishes.
-    vanish: Vec<Option<Moment>>,
-    splits: Vec<Split>,
+    pub(super) vanish: Vec<Option<Moment>>,
+    pub(super) splits: Vec<Split>,
+    pub(super) reflex: ReflexList,
     /// The present.
-    now: Moment,
+    pub(super) now: Moment,
     /// Counts the different moments so far; [`FIRST_STEP`] at the start.
     pub step: u32,
 }
@@ -69,32 +64,20 @@ pub(super) struct Events {
 /// The number of the moment τ = 0.
 pub(super) const FIRST_STEP: u32 = 1;
 
-/// Coefficients of D and T of a vertex with any third line, for the float test.
-struct Probe {
-    d: [f64; 3],
-    t: [f64; 3],
-}
-
-impl Probe {
-    fn of(wf: &Wavefront, v: VertexId) -> Probe {
-        let vertex = wf.vertex(v);
-        let (l, r) = (wf.line(vertex.l), wf.line(vertex.r));
-        let minor =
-            |u: i64, v: i64, s: i64, t: i64| (i128::from(u) * i128::from(v) - i128::from(s) * i128::from(t)) as f64;
-        let cross = l.cross(r) as f64;
-        Probe {
-            d: [minor(r.w, l.b, l.w, r.b), minor(l.w, r.a, r.w, l.a), cross],
-            t: [minor(r.c, l.b, l.c, r.b), minor(l.c, r.a, r.c, l.a), cross],
+impl Default for Events {
+    fn default() -> Events {
+        Events {
+            heap: BinaryHeap::new(),
+            vanish: Vec::new(),
+            splits: Vec::new(),
+            reflex: ReflexList::default(),
+            now: Moment::START,
+            step: FIRST_STEP,
         }
     }
 }
 
 impl Events {
-    pub fn with_capacity(edges: usize) -> Events {
-        let heap = BinaryHeap::with_capacity(2 * edges);
-        Events { heap, vanish: Vec::new(), splits: Vec::new(), now: Moment::START, step: FIRST_STEP }
-    }
-
     /// The earliest event that still holds, if it is not later than `stop`; the present moves on to it.
     pub fn next(&mut self, wf: &Wavefront, stop: Option<&Moment>) -> Option<Event> {
         loop {
@@ -132,17 +115,16 @@ impl Events {
         }
     }
 
-    /// Where an event takes place.
-    pub fn place(&self, wf: &Wavefront, event: &Event) -> Option<Place> {
-        let line = |id| wf.line(id);
+    /// The three lines whose meeting an event is.
+    pub fn lines(&self, wf: &Wavefront, event: &Event) -> [LineId; 3] {
         match event.kind {
             Kind::Edge { start, end } => {
-                let (s, e) = (wf.vertex(start), wf.vertex(end));
-                Place::of(line(s.l), line(s.r), line(e.r))
+                let start = wf.vertex(start);
+                [start.l, start.r, wf.vertex(end).r]
             }
             Kind::Split { vertex, fragment, .. } => {
-                let v = wf.vertex(vertex);
-                Place::of(line(v.l), line(v.r), line(wf.vertex(fragment).r))
+                let vertex = wf.vertex(vertex);
+                [vertex.l, vertex.r, wf.vertex(fragment).r]
             }
         }
     }
@@ -154,28 +136,26 @@ impl Events {
         for &s in fragments {
             self.schedule_edge(wf, s);
         }
-        let mut reflex = std::mem::take(&mut wf.reflex);
-        reflex.retain(|&v| wf.vertex(v).alive);
-        for &v in &reflex {
-            let vertex = wf.vertex(v);
-            if fragments.contains(&v) || fragments.contains(&vertex.prev) {
-                self.search(wf, v);
-            } else {
-                self.offer(wf, v, fragments);
-            }
-        }
-        wf.reflex = reflex;
+        self.offer(wf, fragments);
     }
 
     /// The first update: every fragment is new.
-    pub fn start(&mut self, wf: &Wavefront) {
+    pub fn start(&mut self, wf: &mut Wavefront) {
+        self.heap.clear();
+        self.vanish.clear();
         self.vanish.resize(wf.vertices.len(), None);
+        self.splits.clear();
         self.splits.resize(wf.vertices.len(), Split::default());
+        self.reflex.clear();
+        (self.now, self.step) = (Moment::START, FIRST_STEP);
         for s in 0..wf.vertices.len() {
             self.schedule_edge(wf, s as VertexId);
         }
-        for &v in &wf.reflex {
-            self.search(wf, v);
+        self.reflex.follow(wf);
+        for v in 0..wf.vertices.len() {
+            if wf.vertices[v].turn < 0 {
+                self.search(wf, v as VertexId);
+            }
         }
     }
 
@@ -192,92 +172,4 @@ impl Events {
             self.heap.push(Event { moment, kind: Kind::Edge { start: s, end: start.next } });
         }
     }
-
-    /// Find the earliest split of `v` among all fragments.
-    pub fn search(&mut self, wf: &Wavefront, v: VertexId) {
-        self.splits[v as usize].moment = None;
-        self.splits[v as usize].stamp += 1;
-        self.offer(wf, v, &wf.active);
-    }
-
-    /// See whether `v` runs into one of `fragments` earlier than into what it has.
-    fn offer(&mut self, wf: &Wavefront, v: VertexId, fragments: &[VertexId]) {
-        let probe = Probe::of(wf, v);
-        let mut best = self.bound(wf, v);
-        let mut found = NONE;
-        let now = self.now.tau;
-        for &s in fragments {
-            let latest = best.as_ref().map_or(f64::INFINITY, |m| m.tau);
-            if !may_hit(wf, &probe, s, now, latest) {
-                continue;
-            }
-            if let Some(moment) = self.hit(wf, v, s, best.as_ref(), found != NONE) {
-                best = Some(moment);
-                found = s;
-            }
-        }
-        if found != NONE
-            && let Some(moment) = best
-        {
-            let split = &mut self.splits[v as usize];
-            split.moment = Some(moment);
-            split.stamp += 1;
-            let kind = Kind::Split { vertex: v, fragment: found, stamp: split.stamp };
-            self.heap.push(Event { moment, kind });
-        }
-    }
-
-    /// The moment after which a split of `v` is of no interest: it has a better one, or its own fragments vanish.
-    fn bound(&self, wf: &Wavefront, v: VertexId) -> Option<Moment> {
-        let prev = wf.vertex(v).prev;
-        [self.splits[v as usize].moment, self.vanish[v as usize], self.vanish[prev as usize]]
-            .into_iter()
-            .flatten()
-            .min_by(Moment::compare)
-    }
-
-    /// The moment at which `v` hits the fragment that starts in `s`, exactly: from the inner side, not in the past, not
-    /// later than `best` (earlier if `strict`), on the fragment as it is then.
-    fn hit(&self, wf: &Wavefront, v: VertexId, s: VertexId, best: Option<&Moment>, strict: bool) -> Option<Moment> {
-        let vertex = wf.vertex(v);
-        let (l, r, f) = (wf.line(vertex.l), wf.line(vertex.r), wf.line(wf.vertex(s).r));
-        let d = determinant(l, r, f);
-        if d >= 0 {
-            return None;
-        }
-        let moment = Moment::new(time_numerator(l, r, f), d);
-        match moment.compare(&self.now) {
-            Ordering::Less => return None,
-            // Everything in the place where it was born has just been settled.
-            Ordering::Equal if vertex.born == self.step => return None,
-            _ => {}
-        }
-        match best.map(|best| moment.compare(best)) {
-            Some(Ordering::Greater) => return None,
-            Some(Ordering::Equal) if strict => return None,
-            _ => {}
-        }
-        let place = Place::of(l, r, f)?;
-        wf.on_fragment(s, &place).then_some(moment)
-    }
-}
-
-/// Float test: false if `v` certainly does not hit the line of the fragment between `now` and `latest`.
-fn may_hit(wf: &Wavefront, probe: &Probe, s: VertexId, now: f64, latest: f64) -> bool {
-    const DOUBT: f64 = 4e-15;
-    let f = &wf.floats[wf.vertices[s as usize].r as usize];
-    let terms = [f.a * probe.d[0], f.b * probe.d[1], f.w * probe.d[2]];
-    let d = terms[0] + terms[1] + terms[2];
-    let d_doubt = DOUBT * (terms[0].abs() + terms[1].abs() + terms[2].abs());
-    if d > d_doubt {
-        return false;
-    }
-    let terms = [f.a * probe.t[0], f.b * probe.t[1], f.c * probe.t[2]];
-    let t = terms[0] + terms[1] + terms[2];
-    let t_doubt = DOUBT * (terms[0].abs() + terms[1].abs() + terms[2].abs());
-    // With d < 0: t / d < now is t > now d, t / d > latest is t < latest d.
-    if t - now * d > t_doubt + now * d_doubt {
-        return false;
-    }
-    latest == f64::INFINITY || t - latest * d >= -(t_doubt + latest * d_doubt + DOUBT * (latest * d).abs())
 }

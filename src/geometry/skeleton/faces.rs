@@ -22,6 +22,11 @@ pub(super) struct FaceBuilder {
 }
 
 impl FaceBuilder {
+    pub fn clear(&mut self) {
+        self.parent.clear();
+        self.unions.clear();
+    }
+
     /// The line that stands for the face of `line`.
     pub fn root(&self, mut line: LineId) -> LineId {
         while let Some(&parent) = self.parent.get(line as usize) {
@@ -61,7 +66,6 @@ pub(super) struct FaceLoops {
 /// A directed piece of a face's border.
 #[derive(Clone, Copy, Debug)]
 struct HalfArc {
-    root: LineId,
     from: NodeId,
     to: NodeId,
 }
@@ -69,56 +73,75 @@ struct HalfArc {
 /// No half-arc.
 const END: u32 = u32::MAX;
 
+/// Working memory of chaining: the pieces, sorted by face, and lists of the unused ones that leave a node.
+#[derive(Debug, Default)]
+pub(super) struct Chainer {
+    /// Where the pieces of a face begin, by the line that stands for it.
+    begins: Vec<u32>,
+    halves: Vec<HalfArc>,
+    head: Vec<u32>,
+    next: Vec<u32>,
+}
+
 /// Chain the border pieces of every face. `tops` are (line, from, to) pieces where the wavefront was stopped.
 pub(super) fn chain_faces(
     wf: &Wavefront,
     weld: &[NodeId],
     tops: &[(LineId, NodeId, NodeId)],
+    chainer: &mut Chainer,
 ) -> Result<Vec<FaceLoops>, SkeletonError> {
-    let mut halves = Vec::with_capacity(2 * wf.arcs.len() + wf.eaves.len() + tops.len());
-    let mut push = |line: LineId, from: NodeId, to: NodeId| {
-        let (from, to) = (weld[from as usize], weld[to as usize]);
-        if from != to {
-            halves.push(HalfArc { root: wf.faces.root(line), from, to });
-        }
-    };
-    for &(line, from, to) in wf.eaves.iter().chain(tops) {
-        push(line, from, to);
-    }
-    for &Arc { from, to, l, r } in &wf.arcs {
-        push(l, from, to);
-        push(r, to, from);
-    }
-    // Stable: the eaves stay first within their face.
-    halves.sort_by_key(|h| h.root);
-    let mut chainer = Chainer { head: vec![END; wf.nodes.len()], next: vec![END; halves.len()], halves: &halves };
+    chainer.sort(wf, weld, tops);
     let mut faces = Vec::with_capacity(wf.eaves.len());
-    let mut begin = 0;
-    while begin < halves.len() {
-        let root = halves[begin].root;
-        let end = begin + halves[begin..].iter().take_while(|h| h.root == root).count();
-        faces.push(chainer.face(begin, end)?);
-        begin = end;
+    for root in 0..wf.lines.len() {
+        let (begin, end) = (chainer.begins[root] as usize, chainer.begins[root + 1] as usize);
+        if begin < end {
+            faces.push(chainer.face(root as LineId, begin, end)?);
+        }
     }
     Ok(faces)
 }
 
-/// Lists the unused half-arcs that leave a node.
-struct Chainer<'a> {
-    halves: &'a [HalfArc],
-    head: Vec<u32>,
-    next: Vec<u32>,
-}
+impl Chainer {
+    /// Sort the pieces by face: by counting, so that the eaves stay first within theirs.
+    fn sort(&mut self, wf: &Wavefront, weld: &[NodeId], tops: &[(LineId, NodeId, NodeId)]) {
+        self.begins.clear();
+        self.begins.resize(wf.lines.len() + 2, 0);
+        let pieces = || {
+            let arcs = wf.arcs.iter().flat_map(|&Arc { from, to, l, r }| [(l, from, to), (r, to, from)]);
+            let all = wf.eaves.iter().chain(tops).copied().chain(arcs);
+            all.map(|(line, from, to)| (line, weld[from as usize], weld[to as usize]))
+                .filter(|(_, from, to)| from != to)
+        };
+        let mut count = 0;
+        for (line, ..) in pieces() {
+            self.begins[wf.faces.root(line) as usize + 2] += 1;
+            count += 1;
+        }
+        for k in 2..self.begins.len() {
+            self.begins[k] += self.begins[k - 1];
+        }
+        // Entering the pieces moves the beginning of each face to that of the next.
+        self.halves.clear();
+        self.halves.resize(count, HalfArc { from: 0, to: 0 });
+        for (line, from, to) in pieces() {
+            let place = &mut self.begins[wf.faces.root(line) as usize + 1];
+            self.halves[*place as usize] = HalfArc { from, to };
+            *place += 1;
+        }
+        self.head.clear();
+        self.head.resize(wf.nodes.len(), END);
+        self.next.clear();
+        self.next.resize(count, END);
+    }
 
-impl Chainer<'_> {
     /// The loops of the half-arcs `begin..end`.
-    fn face(&mut self, begin: usize, end: usize) -> Result<FaceLoops, SkeletonError> {
+    fn face(&mut self, root: LineId, begin: usize, end: usize) -> Result<FaceLoops, SkeletonError> {
         for k in (begin..end).rev() {
             let from = self.halves[k].from as usize;
             self.next[k] = self.head[from];
             self.head[from] = k as u32;
         }
-        let mut face = FaceLoops { root: self.halves[begin].root, ..FaceLoops::default() };
+        let mut face = FaceLoops { root, outer: Vec::with_capacity(end - begin), holes: Vec::new() };
         self.walk(self.halves[begin].from, &mut face.outer)?;
         let mut used = face.outer.len();
         while used < end - begin {
@@ -163,10 +186,11 @@ pub(super) const WELD_STEPS: f64 = 8.0;
 /// In a unit of τ a line of weight 1 moves 2^32 grid steps.
 pub(super) const STEPS_PER_TAU: f64 = 4_294_967_296.0;
 
-/// For every node the node that stands for it: ends of short arcs are united, inner nodes with each other or with one
+/// Into `parent`, for every node the node that stands for it: ends of short arcs are united, inner nodes with each other or with one
 /// input node, never two input nodes.
-pub(super) fn weld_nodes(wf: &Wavefront) -> Vec<NodeId> {
-    let mut parent: Vec<NodeId> = (0..wf.nodes.len() as NodeId).collect();
+pub(super) fn weld_nodes(wf: &Wavefront, parent: &mut Vec<NodeId>) {
+    parent.clear();
+    parent.extend(0..wf.nodes.len() as NodeId);
     let root = |parent: &[NodeId], mut n: NodeId| {
         while parent[n as usize] != n {
             n = parent[n as usize];
@@ -174,14 +198,17 @@ pub(super) fn weld_nodes(wf: &Wavefront) -> Vec<NodeId> {
         n
     };
     for arc in &wf.arcs {
-        let (p, q) = (root(&parent, arc.from), root(&parent, arc.to));
+        let (p, q) = (root(parent, arc.from), root(parent, arc.to));
         let (low, high) = (p.min(q), p.max(q));
         let two_inputs = (high as usize) < wf.input_nodes;
         if low != high && !two_inputs && near(&wf.nodes[low as usize], &wf.nodes[high as usize]) {
             parent[high as usize] = low;
         }
     }
-    (0..parent.len() as NodeId).map(|n| root(&parent, n)).collect()
+    // The lower number stands for the higher one: one pass upwards.
+    for n in 0..parent.len() {
+        parent[n] = parent[parent[n] as usize];
+    }
 }
 
 pub(super) fn near(p: &GridNode, q: &GridNode) -> bool {

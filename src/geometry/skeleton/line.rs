@@ -24,7 +24,7 @@ impl Line {
         let g = gcd(dx.unsigned_abs(), dy.unsigned_abs()) as i64;
         let (a, b) = (-dy / g, dx / g);
         let square = u128::from(a.unsigned_abs()).pow(2) + u128::from(b.unsigned_abs()).pow(2);
-        let full = (square << 64).isqrt() as i64;
+        let full = root(square << 64);
         let w = if weight == 1.0 { full } else { (full as f64 * weight).round() as i64 };
         Line { a, b, c: -(a * p[0] + b * p[1]), w }
     }
@@ -38,6 +38,21 @@ impl Line {
     pub fn same_direction(&self, other: &Line) -> bool {
         i128::from(self.a) * i128::from(other.a) + i128::from(self.b) * i128::from(other.b) > 0
     }
+}
+
+/// The integer square root, rounded down; `square` < 2^126. A float gives it to 53 bits, its remainder the rest.
+fn root(square: u128) -> i64 {
+    let close = (square as f64).sqrt() as i64;
+    let rest = square as i128 - i128::from(close) * i128::from(close);
+    let mut root = close + (rest as f64 / (2.0 * close as f64)) as i64;
+    let below = |root: i64| i128::from(root) * i128::from(root) <= square as i128;
+    while !below(root) {
+        root -= 1;
+    }
+    while below(root + 1) {
+        root += 1;
+    }
+    root
 }
 
 /// A value of τ as a fraction t / d with d > 0, and as a float.
@@ -178,6 +193,16 @@ mod tests {
         let place = Place::of(&lines[0], &lines[1], &lines[2]).expect("an incentre");
         let again = Place::at(place.moment, &lines[2], &lines[0]).expect("a corner");
         assert!((place.x - again.x).abs() < 1e-6 && (place.y - again.y).abs() < 1e-6);
+    }
+
+    #[test]
+    fn roots_are_rounded_down() {
+        for (a, b) in
+            [(1u64, 0u64), (1, 1), (3, 4), (1 << 30, 1 << 30), ((1 << 30) - 1, (1 << 30) - 35), (715_827_883, 2)]
+        {
+            let square = u128::from(a * a + b * b) << 64;
+            assert_eq!(u128::from(root(square) as u64), square.isqrt(), "{a} {b}");
+        }
     }
 
     #[test]

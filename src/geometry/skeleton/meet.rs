@@ -46,9 +46,25 @@ pub(super) struct Meeting {
 }
 
 impl Meeting {
-    /// Settle all that happens in `place`, and the ridges that form at the same moment. False if nothing does.
-    pub fn settle(&mut self, wf: &mut Wavefront, place: &Place, step: u32) -> Result<bool, SkeletonError> {
-        if !self.settle_once(wf, place, None, step)? {
+    /// Forget everything but the memory.
+    pub fn clear(&mut self) {
+        self.changed.clear();
+        self.ridges.clear();
+        self.on_line.clear();
+        self.gathered.clear();
+        self.call = 0;
+    }
+
+    /// Settle all that happens in `place`, where `lines` are known to meet, and the ridges that form at the same moment.
+    /// False if nothing does.
+    pub fn settle(
+        &mut self,
+        wf: &mut Wavefront,
+        place: &Place,
+        lines: [LineId; 3],
+        step: u32,
+    ) -> Result<bool, SkeletonError> {
+        if !self.settle_once(wf, place, lines, None, step)? {
             return Ok(false);
         }
         while let Some(ridge) = self.ridges.pop() {
@@ -74,13 +90,14 @@ impl Meeting {
         let (i, o, h) = (*wf.line(vertex.l), *wf.line(vertex.r), *wf.line(after.r));
         let left = Place::of(wf.line(before.l), &i, &o);
         let right = Place::of(&i, &o, &h);
-        let place = match (left, right) {
-            (Some(left), Some(_)) if left.side(&h) * after.turn >= 0 => left,
-            (_, Some(right)) => right,
-            (Some(left), None) => left,
+        let (near, far) = ([before.l, vertex.l, vertex.r], [vertex.l, vertex.r, after.r]);
+        let (place, lines) = match (left, right) {
+            (Some(left), Some(_)) if left.side(&h) * after.turn >= 0 => (left, near),
+            (_, Some(right)) => (right, far),
+            (Some(left), None) => (left, near),
             (None, None) => return Err(SkeletonError::Unresolved),
         };
-        if self.settle_once(wf, &place, Some(ridge), step)? { Ok(()) } else { Err(SkeletonError::Unresolved) }
+        if self.settle_once(wf, &place, lines, Some(ridge), step)? { Ok(()) } else { Err(SkeletonError::Unresolved) }
     }
 
     /// Steps 1 to 6. `ridge` is the vertex between opposite lines that ends here, if that is the reason.
@@ -88,10 +105,11 @@ impl Meeting {
         &mut self,
         wf: &mut Wavefront,
         place: &Place,
+        lines: [LineId; 3],
         ridge: Option<VertexId>,
         step: u32,
     ) -> Result<bool, SkeletonError> {
-        self.gather(wf, place, ridge);
+        self.gather(wf, place, lines, ridge);
         let vanishing = self.find_chains(wf, place);
         let alone = self.chains.len() == 1 && self.dying.len() <= 1;
         if vanishing == 0 && (self.chains.is_empty() || alone) {
@@ -106,16 +124,20 @@ impl Meeting {
     }
 
     /// Step 1: mark the fragments whose line passes through the place, list the vertices that are there.
-    fn gather(&mut self, wf: &Wavefront, place: &Place, ridge: Option<VertexId>) {
+    fn gather(&mut self, wf: &Wavefront, place: &Place, known: [LineId; 3], ridge: Option<VertexId>) {
         self.call += 1;
-        self.on_line.resize(wf.vertices.len(), 0);
-        self.gathered.resize(wf.vertices.len(), 0);
+        if self.on_line.len() < wf.vertices.len() {
+            self.on_line.resize(wf.vertices.len(), 0);
+            self.gathered.resize(wf.vertices.len(), 0);
+        }
         self.hits.clear();
         self.dying.clear();
-        for &s in &wf.active {
-            let id = wf.vertices[s as usize].r as usize;
-            let f = &wf.floats[id];
-            if place.float_side(f.a, f.b, f.c, f.w).is_none() && place.exact_side(&wf.lines[id]) == 0 {
+        for (&s, f) in wf.active.iter().zip(&wf.carried) {
+            if place.float_side(f.a, f.b, f.c, f.w).is_some() {
+                continue;
+            }
+            let line = wf.vertices[s as usize].r;
+            if known.contains(&line) || place.exact_side(wf.line(line)) == 0 {
                 self.on_line[s as usize] = self.call;
                 self.hits.push(s);
             }
@@ -233,12 +255,7 @@ impl Meeting {
         let c = -(a as f64 * place.x + b as f64 * place.y).round() as i64;
         let between = wf.add_line(Line { a, b, c, w: 0 });
         let last = wf.add_vertex(between, vertex.r, node);
-        let turn = l.cross(wf.line(between)).signum() as i32;
-        let changed = &mut wf.vertices[first as usize];
-        (changed.r, changed.turn) = (between, turn);
-        if turn < 0 {
-            wf.reflex.push(first);
-        }
+        wf.set_right(first, between);
         wf.link(first, last);
         last
     }

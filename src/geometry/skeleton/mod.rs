@@ -7,22 +7,26 @@ mod events;
 mod faces;
 mod line;
 mod meet;
+mod path;
 mod quad;
 mod setup;
+mod splits;
 mod unite;
 mod wavefront;
 
 #[cfg(test)]
 mod tests;
 
+use std::cell::Cell;
+
 use glam::DVec2;
 
 use self::events::{Event, Events, Kind};
-use self::faces::{FaceLoops, chain_faces, weld_nodes};
-use self::line::Moment;
+use self::faces::{Chainer, FaceLoops, chain_faces, weld_nodes};
+use self::line::{Moment, Place};
 use self::meet::Meeting;
 pub(crate) use self::setup::Options;
-use self::setup::{Setup, set_up};
+use self::setup::{Setup, Side, set_up};
 use self::unite::cut_united;
 use self::wavefront::{GridNode, LineId, NodeId, VertexId, Wavefront};
 use crate::geometry::polygon::Polygon;
@@ -108,20 +112,57 @@ pub(crate) fn run(
     time: Option<f64>,
     options: &Options,
 ) -> Result<Skeleton, SkeletonError> {
-    let mut setup = set_up(polygon, weights, options)?;
-    let stop = time.map(|time| stop_moment(time, setup.metres_per_tau)).transpose()?;
-    shrink(&mut setup.wavefront, stop.as_ref())?;
-    let wf = &mut setup.wavefront;
-    let (mut tops, top_pieces) = stand_still(wf, stop)?;
-    let weld = weld_nodes(wf);
-    let mut faces = chain_faces(wf, &weld, &top_pieces)?;
-    for node in tops.iter_mut().flatten() {
-        *node = weld[*node as usize];
+    let mut work = WORKSPACE.take().unwrap_or_default();
+    let result = work.run(polygon, weights, time, options);
+    if work.wavefront.nodes.len() < KEPT {
+        WORKSPACE.set(Some(work));
     }
-    if !wf.faces.unions.is_empty() {
-        cut_united(wf, &weld, &mut faces, &mut tops)?;
+    result
+}
+
+thread_local! {
+    /// The memory of the last run, for the next one.
+    static WORKSPACE: Cell<Option<Box<Workspace>>> = const { Cell::new(None) };
+}
+
+/// Memory that held this many nodes is given back.
+const KEPT: usize = 1 << 14;
+
+/// All that a run writes but its result.
+#[derive(Default)]
+struct Workspace {
+    wavefront: Wavefront,
+    events: Events,
+    meeting: Meeting,
+    weld: Vec<NodeId>,
+    chainer: Chainer,
+    number: Vec<u32>,
+    sides: Vec<Side>,
+}
+
+impl Workspace {
+    fn run(
+        &mut self,
+        polygon: &Polygon,
+        weights: Option<&[f64]>,
+        time: Option<f64>,
+        options: &Options,
+    ) -> Result<Skeleton, SkeletonError> {
+        let Workspace { wavefront: wf, weld, chainer, .. } = self;
+        let setup = set_up(wf, &mut self.sides, polygon, weights, options)?;
+        let stop = time.map(|time| stop_moment(time, setup.metres_per_tau)).transpose()?;
+        shrink(wf, &mut self.events, &mut self.meeting, stop.as_ref())?;
+        let (mut tops, top_pieces) = stand_still(wf, stop)?;
+        weld_nodes(wf, weld);
+        let mut faces = chain_faces(wf, weld, &top_pieces, chainer)?;
+        for node in tops.iter_mut().flatten() {
+            *node = weld[*node as usize];
+        }
+        if !wf.faces.unions.is_empty() {
+            cut_united(wf, weld, &mut faces, &mut tops)?;
+        }
+        Ok(finish(polygon, &setup, wf, &mut self.number, faces, tops))
     }
-    Ok(finish(polygon, &setup, faces, tops))
 }
 
 /// The moment of a real time. A float is a fraction; 2^20 parts of a grid step are enough.
@@ -135,15 +176,21 @@ fn stop_moment(time: f64, metres_per_tau: f64) -> Result<Moment, SkeletonError> 
 }
 
 /// Let the outline shrink until nothing happens any more, or nothing before `stop`.
-fn shrink(wf: &mut Wavefront, stop: Option<&Moment>) -> Result<(), SkeletonError> {
-    let mut events = Events::with_capacity(wf.vertices.len());
-    let mut meeting = Meeting::default();
+fn shrink(
+    wf: &mut Wavefront,
+    events: &mut Events,
+    meeting: &mut Meeting,
+    stop: Option<&Moment>,
+) -> Result<(), SkeletonError> {
+    meeting.clear();
     events.start(wf);
     let mut calls_left = 40 * wf.vertices.len() + 100;
     while let Some(event) = events.next(wf, stop) {
         calls_left = calls_left.checked_sub(1).ok_or(SkeletonError::Unresolved)?;
-        let place = events.place(wf, &event).ok_or(SkeletonError::Unresolved)?;
-        if meeting.settle(wf, &place, events.step)? {
+        let lines = events.lines(wf, &event);
+        let [p, e, q] = lines.map(|id| wf.line(id));
+        let place = Place::of(p, e, q).ok_or(SkeletonError::Unresolved)?;
+        if meeting.settle(wf, &place, lines, events.step)? {
             meeting.changed.retain(|&v| wf.vertex(v).alive);
             meeting.changed.sort_unstable();
             meeting.changed.dedup();
@@ -161,6 +208,9 @@ type TopPiece = (LineId, NodeId, NodeId);
 
 /// Turn what is left of the wavefront into loops of nodes, at the moment `stop`, or where it no longer moves.
 fn stand_still(wf: &mut Wavefront, stop: Option<Moment>) -> Result<(Vec<Vec<NodeId>>, Vec<TopPiece>), SkeletonError> {
+    if wf.active.is_empty() {
+        return Ok((Vec::new(), Vec::new()));
+    }
     let mut alive = wf.active.clone();
     alive.sort_unstable();
     let (mut tops, mut pieces) = (Vec::new(), Vec::new());
@@ -214,10 +264,18 @@ fn end_of(wf: &mut Wavefront, v: VertexId, stop: Option<Moment>, last: f64) -> R
 }
 
 /// Back to metres: keep the nodes in use, sort the faces by edge.
-fn finish(polygon: &Polygon, setup: &Setup, faces: Vec<FaceLoops>, tops: Vec<Vec<NodeId>>) -> Skeleton {
-    let wf = &setup.wavefront;
-    let mut nodes: Vec<Node> = polygon.rings().flatten().map(|&position| Node { position, time: 0.0 }).collect();
-    let mut number: Vec<u32> = vec![u32::MAX; wf.nodes.len()];
+fn finish(
+    polygon: &Polygon,
+    setup: &Setup,
+    wf: &Wavefront,
+    number: &mut Vec<u32>,
+    faces: Vec<FaceLoops>,
+    tops: Vec<Vec<NodeId>>,
+) -> Skeleton {
+    let mut nodes: Vec<Node> = Vec::with_capacity(wf.nodes.len());
+    nodes.extend(polygon.rings().flatten().map(|&position| Node { position, time: 0.0 }));
+    number.clear();
+    number.resize(wf.nodes.len(), u32::MAX);
     for (k, n) in number.iter_mut().take(wf.input_nodes).enumerate() {
         *n = k as u32;
     }

@@ -24,7 +24,7 @@ pub(crate) struct Options {
 
 /// One edge of the input that has a length on the grid.
 #[derive(Clone, Copy)]
-struct Side {
+pub(super) struct Side {
     edge: u32,
     start: u32,
     point: [i64; 2],
@@ -32,16 +32,21 @@ struct Side {
     weight: f64,
 }
 
-/// What [`Wavefront`] starts from, besides the vertices.
+/// What turns the wavefront back into metres.
 pub(super) struct Setup {
     pub grid: Grid,
     /// Real time of a unit of τ, metres.
     pub metres_per_tau: f64,
-    pub wavefront: Wavefront,
 }
 
-/// Build the initial wavefront.
-pub(super) fn set_up(polygon: &Polygon, weights: Option<&[f64]>, options: &Options) -> Result<Setup, SkeletonError> {
+/// Build the initial wavefront. `sides` is working memory.
+pub(super) fn set_up(
+    wavefront: &mut Wavefront,
+    sides: &mut Vec<Side>,
+    polygon: &Polygon,
+    weights: Option<&[f64]>,
+    options: &Options,
+) -> Result<Setup, SkeletonError> {
     let count = polygon.rings().map(Vec::len).sum();
     let fastest = check_weights(weights, count)?;
     if polygon.rings().flatten().any(|p| !p.is_finite()) {
@@ -55,22 +60,27 @@ pub(super) fn set_up(polygon: &Polygon, weights: Option<&[f64]>, options: &Optio
         return Err(SkeletonError::TooFewPoints);
     }
     let grid = Grid::over(min, max).ok_or(SkeletonError::NotFinite)?;
-    let mut wavefront = Wavefront::with_capacity(count);
+    wavefront.clear();
+    sides.clear();
     // With all weights 0 nothing moves; any unit of time will do. Bevels move faster than their edges.
     let unit = if fastest > 0.0 { fastest * options.mitre_limit.unwrap_or(1.0) } else { 1.0 };
     let weight = |edge: usize| weights.map_or(1.0, |w| w[edge]) / unit;
     let mut first = 0;
-    let mut rings = Vec::with_capacity(1 + polygon.holes.len());
     for (number, ring) in polygon.rings().enumerate() {
         check_direction(ring, number == 0)?;
-        rings.push(sides_of(&mut wavefront, &grid, ring, first, weight)?);
+        add_lines(wavefront, sides, &grid, ring, first, weight)?;
         first += ring.len();
     }
     // Auxiliary lines come after those of all edges.
-    for sides in &rings {
-        add_ring(&mut wavefront, sides, options)?;
+    let mut sides = &sides[..];
+    let mut end = 0;
+    for ring in polygon.rings() {
+        end += ring.len();
+        let (here, rest) = sides.split_at(sides.partition_point(|s| (s.edge as usize) < end));
+        add_ring(wavefront, here, options)?;
+        sides = rest;
     }
-    Ok(Setup { grid, metres_per_tau: STEPS_PER_TAU * grid.step / unit, wavefront })
+    Ok(Setup { grid, metres_per_tau: STEPS_PER_TAU * grid.step / unit })
 }
 
 /// The greatest weight.
@@ -93,18 +103,21 @@ fn check_direction(ring: &[DVec2], outer: bool) -> Result<(), SkeletonError> {
     Ok(())
 }
 
-/// Enter the ring's vertices as nodes and its lines; return the edges that have a length.
-fn sides_of(
+/// Enter the ring's vertices as nodes and its lines; list the edges that have a length.
+fn add_lines(
     wavefront: &mut Wavefront,
+    sides: &mut Vec<Side>,
     grid: &Grid,
     ring: &[DVec2],
     first: usize,
     weight: impl Fn(usize) -> f64,
-) -> Result<Vec<Side>, SkeletonError> {
-    let points: Vec<[i64; 2]> = ring.iter().map(|&p| grid.snap(p)).collect();
-    let mut sides: Vec<Side> = Vec::with_capacity(ring.len());
-    for (i, &point) in points.iter().enumerate() {
-        let end = points[(i + 1) % points.len()];
+) -> Result<(), SkeletonError> {
+    let before = sides.len();
+    let Some(&start) = ring.first() else { return Err(SkeletonError::TooFewPoints) };
+    let start = grid.snap(start);
+    let mut point = start;
+    for i in 0..ring.len() {
+        let end = ring.get(i + 1).map_or(start, |&p| grid.snap(p));
         let edge = first + i;
         wavefront.add_input_node(point);
         let direction = [end[0] - point[0], end[1] - point[1]];
@@ -112,15 +125,16 @@ fn sides_of(
         if direction == [0, 0] {
             // A face of its own for an edge without length: its line is never used.
             wavefront.add_line(Line::new(point, 1, 0, weight));
-            continue;
+        } else {
+            wavefront.add_line(Line::new(point, direction[0], direction[1], weight));
+            sides.push(Side { edge: edge as u32, start: edge as u32, point, direction, weight });
         }
-        wavefront.add_line(Line::new(point, direction[0], direction[1], weight));
-        sides.push(Side { edge: edge as u32, start: edge as u32, point, direction, weight });
+        point = end;
     }
-    if sides.len() < 3 {
+    if sides.len() - before < 3 {
         return Err(SkeletonError::TooFewPoints);
     }
-    Ok(sides)
+    Ok(())
 }
 
 /// Enter one loop of wavefront vertices and the eaves of its faces.

@@ -66,8 +66,11 @@ pub(super) struct Wavefront {
     pub vertices: Vec<Vertex>,
     /// Living vertices, in no meaningful order.
     pub active: Vec<VertexId>,
-    /// Living reflex vertices; may hold dead ones until the next sweep.
+    /// The lines that carry the fragments which start in the active vertices, in the same order.
+    pub carried: Vec<FloatLine>,
+    /// Reflex vertices born and vertices died since somebody last emptied these lists.
     pub reflex: Vec<VertexId>,
+    pub dead: Vec<VertexId>,
     pub nodes: Vec<GridNode>,
     pub input_nodes: usize,
     pub arcs: Vec<Arc>,
@@ -77,17 +80,20 @@ pub(super) struct Wavefront {
 }
 
 impl Wavefront {
-    pub fn with_capacity(edges: usize) -> Wavefront {
-        Wavefront {
-            lines: Vec::with_capacity(edges),
-            floats: Vec::with_capacity(edges),
-            vertices: Vec::with_capacity(3 * edges),
-            active: Vec::with_capacity(edges),
-            nodes: Vec::with_capacity(2 * edges),
-            arcs: Vec::with_capacity(2 * edges),
-            eaves: Vec::with_capacity(edges),
-            ..Wavefront::default()
-        }
+    /// Forget everything but the memory.
+    pub fn clear(&mut self) {
+        self.lines.clear();
+        self.floats.clear();
+        self.vertices.clear();
+        self.active.clear();
+        self.carried.clear();
+        self.reflex.clear();
+        self.dead.clear();
+        self.nodes.clear();
+        self.input_nodes = 0;
+        self.arcs.clear();
+        self.eaves.clear();
+        self.faces.clear();
     }
 
     pub fn add_input_node(&mut self, point: [i64; 2]) {
@@ -117,10 +123,22 @@ impl Wavefront {
         let slot = self.active.len() as u32;
         self.vertices.push(Vertex { l, r, prev: NONE, next: NONE, birth, turn, alive: true, born: 0, slot });
         self.active.push(id);
+        self.carried.push(self.floats[r as usize]);
         if turn < 0 {
             self.reflex.push(id);
         }
         id
+    }
+
+    /// Change the line of the fragment that starts in a vertex.
+    pub fn set_right(&mut self, id: VertexId, r: LineId) {
+        let vertex = self.vertices[id as usize];
+        let turn = self.line(vertex.l).cross(self.line(r)).signum() as i32;
+        self.vertices[id as usize] = Vertex { r, turn, ..vertex };
+        self.carried[vertex.slot as usize] = self.floats[r as usize];
+        if turn < 0 {
+            self.reflex.push(id);
+        }
     }
 
     pub fn line(&self, id: LineId) -> &Line {
@@ -143,6 +161,8 @@ impl Wavefront {
         vertex.alive = false;
         let Vertex { l, r, birth, slot, .. } = *vertex;
         self.active.swap_remove(slot as usize);
+        self.carried.swap_remove(slot as usize);
+        self.dead.push(id);
         if let Some(&moved) = self.active.get(slot as usize) {
             self.vertices[moved as usize].slot = slot;
         }

@@ -102,13 +102,12 @@ fn text(polygons: &[Polygon]) -> Vec<u8> {
 
 /// What the program printed, if a round ended.
 fn rounds(lines: &[String], polygons: usize) -> Option<Outcome> {
-    let mut seconds = Vec::new();
-    let (mut failed, mut height) = (0, 0.0);
-    for line in lines {
-        let mut words = line.split(' ');
-        seconds.push(words.next()?.parse().ok()?);
-        failed = words.next()?.parse().ok()?;
-        height = words.next()?.parse().ok()?;
-    }
-    (!seconds.is_empty()).then(|| Outcome::Done { timing: Timing::of_rounds(seconds, polygons, height), failed })
+    let numbers = |line: &String| -> Option<(f64, f64)> {
+        let (seconds, height) = line.split_once(' ')?;
+        Some((seconds.parse().ok()?, height.parse().ok()?))
+    };
+    let (seconds, heights): (Vec<f64>, Vec<f64>) = lines.iter().map_while(numbers).unzip();
+    let failed = heights.iter().take(polygons).filter(|h| **h < 0.0).count();
+    let timing = Timing::of_rounds(&seconds, polygons, heights.iter().take(polygons).sum())?;
+    Some(Outcome::Done { timing, failed })
 }

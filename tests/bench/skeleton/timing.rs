@@ -1,4 +1,4 @@
-//! Rounds over all polygons, and our own. In: polygons. Out: seconds for one of them, best and median round.
+//! Every polygon timed by itself, in rounds over all. In: polygons. Out: mean seconds of one, from best and median rounds.
 
 use std::hint::black_box;
 use std::time::{Duration, Instant};
@@ -11,7 +11,7 @@ pub const ROUNDS: usize = 5;
 pub const SECONDS: f64 = 1.0;
 
 pub struct Timing {
-    /// Seconds of one polygon in the best and in the median round.
+    /// Mean over the polygons of the best, and of the median, of the rounds: seconds.
     pub best: f64,
     pub median: f64,
     /// Greatest time of a node, summed over the polygons: what two implementations have to agree on.
@@ -19,11 +19,21 @@ pub struct Timing {
 }
 
 impl Timing {
-    /// From the seconds of whole rounds.
-    pub fn of_rounds(mut rounds: Vec<f64>, polygons: usize, height: f64) -> Timing {
-        rounds.sort_by(f64::total_cmp);
-        let each = |seconds: f64| seconds / polygons as f64;
-        Timing { best: each(rounds[0]), median: each(rounds[rounds.len() / 2]), height }
+    /// From the seconds of every polygon in every round (round after round), unless there is no whole round.
+    pub fn of_rounds(seconds: &[f64], polygons: usize, height: f64) -> Option<Timing> {
+        let rounds = seconds.len() / polygons;
+        if rounds == 0 {
+            return None;
+        }
+        let (mut best, mut median) = (0.0, 0.0);
+        for k in 0..polygons {
+            let mut times: Vec<f64> = (0..rounds).map(|round| seconds[round * polygons + k]).collect();
+            times.sort_by(f64::total_cmp);
+            best += times[0];
+            median += times[rounds / 2];
+        }
+        let each = 1.0 / polygons as f64;
+        Some(Timing { best: best * each, median: median * each, height })
     }
 }
 
@@ -34,14 +44,14 @@ pub fn ours(polygons: &[Polygon]) -> Timing {
         skeleton.nodes.iter().fold(0.0, |m, node| f64::max(m, node.time))
     };
     let height = polygons.iter().map(height).sum();
-    let mut rounds = Vec::new();
+    let mut seconds = Vec::new();
     let begin = Instant::now();
-    while rounds.len() < ROUNDS || begin.elapsed() < Duration::from_secs_f64(SECONDS) {
-        let start = Instant::now();
+    while seconds.len() < ROUNDS * polygons.len() || begin.elapsed() < Duration::from_secs_f64(SECONDS) {
         for polygon in polygons {
+            let start = Instant::now();
             drop(black_box(skeleton(black_box(polygon), None)));
+            seconds.push(start.elapsed().as_secs_f64());
         }
-        rounds.push(start.elapsed().as_secs_f64());
     }
-    Timing::of_rounds(rounds, polygons.len(), height)
+    Timing::of_rounds(&seconds, polygons.len(), height).expect("at least one round")
 }
