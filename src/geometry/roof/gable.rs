@@ -217,13 +217,24 @@ fn continue_planes(
             tangent * edges.distance(edge, p)
         }
     };
-    let strips = add_strips(plan, polygon, &distances, &height)?;
+    let bare = plan.clone();
+    let strips = loop {
+        let strips = add_strips(plan, polygon, &distances, &height)?;
+        // The strip before a pediment is no plane of its own: where it meets others it stays flush with its wall.
+        let flush: Vec<usize> =
+            strips.torn.iter().copied().filter(|e| upright.contains(e) && distances[*e] > 0.0).collect();
+        if flush.is_empty() {
+            break strips;
+        }
+        flush.into_iter().for_each(|edge| distances[edge] = 0.0);
+        plan.clone_from(&bare);
+    };
     for (edge, tip) in pediments {
         if distances[edge] > 0.0 {
-            cover_pediment(plan, &edges, edge, tip, &strips[edge]);
+            cover_pediment(plan, &edges, edge, tip, &strips.outside[edge]);
         }
     }
-    extend_with(plan, polygon, &distances, &strips);
+    extend_with(plan, polygon, &distances, &strips.outside);
     Ok(())
 }
 

@@ -1,6 +1,8 @@
 //! Overhangs: roof planes continued beyond their eaves. In: a roof over a polygon, distances in plan. Out: the same roof,
 //! its planes joined with the strips outside.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use glam::DVec2;
 
 use super::plan::{PlanFace, PlanRoof};
@@ -12,6 +14,17 @@ use crate::geometry::skeleton::Skeleton;
 /// The strip outside an edge: the nodes from the start of the edge outwards, along, and back to its end, without the ends.
 pub(super) type Strip = Vec<u32>;
 
+/// The strips outside all edges.
+pub(super) struct Strips {
+    /// By edge.
+    pub outside: Vec<Strip>,
+    /// Edges whose strips meet in a point where their planes are not equally high: before the same opening, say.
+    pub torn: BTreeSet<usize>,
+}
+
+/// Planes may differ in height by rounding, as a share of the outline's extent.
+const ROUNDING: f64 = 1e-9;
+
 /// Continue every roof plane by the distance of its edge; `height` is that of the plane of an edge at a point.
 pub(super) fn extend(
     plan: &mut PlanRoof,
@@ -20,7 +33,7 @@ pub(super) fn extend(
     height: impl Fn(usize, DVec2) -> f64,
 ) -> Result<(), RoofError> {
     let strips = add_strips(plan, polygon, distances, &height)?;
-    extend_with(plan, polygon, distances, &strips);
+    extend_with(plan, polygon, distances, &strips.outside);
     Ok(())
 }
 
@@ -61,15 +74,17 @@ pub(super) fn add_strips(
     polygon: &Polygon,
     distances: &[f64],
     height: &impl Fn(usize, DVec2) -> f64,
-) -> Result<Vec<Strip>, RoofError> {
+) -> Result<Strips, RoofError> {
     let outside = grow(polygon, distances)?;
-    let mut strips = vec![Strip::new(); distances.len()];
+    let mut strips = Strips { outside: vec![Strip::new(); distances.len()], torn: BTreeSet::new() };
+    let extent = polygon.bounds().map_or(0.0, |(low, high)| (high - low).max_element());
+    let raise = Raise { distances, height, tolerance: ROUNDING * extent };
     let rings = polygon.rings().zip(std::iter::once(&outside.around).chain(&outside.in_holes));
     let mut first = 0;
     for (number, (ring, skeleton)) in rings.enumerate() {
         let frame = if number == 0 { FRAME } else { 0 };
         let offset = Reversed { frame, first, count: ring.len() };
-        add_ring_strips(plan, skeleton, &offset, &mut strips, height);
+        add_ring_strips(plan, skeleton, &offset, &mut strips, &raise);
         first += ring.len();
     }
     Ok(strips)
@@ -93,24 +108,49 @@ impl Reversed {
     }
 }
 
+/// How high the planes of edges are outside.
+struct Raise<'a, H> {
+    distances: &'a [f64],
+    height: &'a H,
+    tolerance: f64,
+}
+
+impl<H: Fn(usize, DVec2) -> f64> Raise<'_, H> {
+    /// Whether the plane of an edge that has a strip is not at the known height.
+    fn tears(&self, edge: usize, p: DVec2, known: f64) -> bool {
+        self.distances[edge] > 0.0 && ((self.height)(edge, p) - known).abs() > self.tolerance
+    }
+}
+
 fn add_ring_strips(
     plan: &mut PlanRoof,
     skeleton: &Skeleton,
     numbers: &Reversed,
-    strips: &mut [Strip],
-    height: &impl Fn(usize, DVec2) -> f64,
+    strips: &mut Strips,
+    raise: &Raise<'_, impl Fn(usize, DVec2) -> f64>,
 ) {
     let mut known: Vec<Option<u32>> = (0..skeleton.nodes.len()).map(|n| numbers.vertex(n)).collect();
-    for face in &skeleton.faces {
-        let Some(edge) = numbers.edge(face.edge) else { continue };
+    let mut raised_by: BTreeMap<u32, usize> = BTreeMap::new();
+    // Edges without a strip have no say in the height of a corner that others have too.
+    let mut faces: Vec<_> = skeleton.faces.iter().filter_map(|f| Some((numbers.edge(f.edge)?, f))).collect();
+    faces.sort_by_key(|(edge, _)| raise.distances[*edge] == 0.0);
+    for (edge, face) in faces {
         let ring = face.boundary.iter().map(|&n| {
-            *known[n as usize].get_or_insert_with(|| {
-                let p = skeleton.nodes[n as usize].position;
-                plan.add_node(p, height(edge, p))
-            })
+            let p = skeleton.nodes[n as usize].position;
+            let id = *known[n as usize].get_or_insert_with(|| {
+                let id = plan.add_node(p, (raise.height)(edge, p));
+                raised_by.insert(id, edge);
+                id
+            });
+            if let Some(&other) = raised_by.get(&id)
+                && raise.tears(edge, p, plan.node(id).height)
+            {
+                strips.torn.extend([edge, other]);
+            }
+            id
         });
         // The strip starts with the reversed edge: end, start.
-        strips[edge] = ring.skip(2).collect();
+        strips.outside[edge] = ring.skip(2).collect();
     }
     for extra in &skeleton.extras {
         let ring: Option<Vec<u32>> = extra.iter().map(|&n| known[n as usize]).collect();

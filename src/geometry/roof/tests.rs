@@ -457,3 +457,56 @@ fn rings_that_touch_in_a_corner_double_no_corner() {
     assert_eq!(open_edges(&roof.mesh), []);
     assert_eq!(edges_run_twice_the_same_way(&roof.mesh), []);
 }
+
+/// Gables with an overhang of 0.45 m all around: no defect but the free edges of the overhang.
+#[track_caller]
+fn assert_overhanging_gables_are_plane(outer: &[(f64, f64)]) {
+    let roof = gable(&polygon(outer, &[]), Slope::Angle(30.0), 0.45, 0.45, false, None).unwrap();
+    assert_eq!(mesh_checks::defects(&roof.mesh, &[mesh_checks::Defect::OpenEdge]), []);
+    assert!(roof.parts.iter().any(|p| matches!(p, RoofPart::Side { .. })));
+}
+
+/// way/-14226 of Santa Rosa: the strip before the pediment of the jog meets the eave beside it at another height.
+#[test]
+fn a_pediment_whose_overhang_meets_another_eave_stays_flush() {
+    assert_overhanging_gables_are_plane(&[
+        (11.4641, 5.0642),
+        (6.1263, 17.1404),
+        (-5.3378, 12.0651),
+        (-2.4811, 5.6052),
+        (-5.0393, 4.4724),
+        (-2.9951, -0.1338),
+        (-1.5806, 0.4881),
+        (-1.1438, -0.4998),
+        (0.0, 0.0),
+    ]);
+}
+
+/// From way/-13838 of Santa Rosa: the eaves of a slot beside a wall that stands still.
+#[test]
+fn an_eave_in_a_slot_ends_at_the_line_of_a_wall_without_overhang() {
+    assert_overhanging_gables_are_plane(&[
+        (2.4802, -6.0164),
+        (4.8990, -5.0172),
+        (5.3444, -6.0940),
+        (4.7331, -6.3382),
+        (5.6937, -8.6693),
+        (6.6281, -8.2807),
+        (6.8901, -8.9245),
+        (6.4185, -9.1244),
+        (8.7066, -14.6745),
+        (16.8711, -9.0352),
+        (8.9243, 3.6745),
+        (0.0, 0.0),
+    ]);
+}
+
+/// way/283252471 of Queens Village: the end of a front that goes straight on got a pediment without height.
+#[test]
+fn a_front_that_goes_straight_on_has_no_pediment_at_its_end() {
+    let outline = [(0.0, 0.0), (0.6926, 0.000127), (6.4363, 0.001186), (6.4270, 4.7208), (-0.0009, 4.7085)];
+    let roof = gable(&polygon(&outline, &[]), Slope::Angle(30.0), 0.45, 0.45, false, None).unwrap();
+    let lowest = roof.mesh.faces.iter().zip(&roof.parts).filter(|(_, p)| matches!(p, RoofPart::Side { .. }));
+    assert!(lowest.clone().count() > 0 && lowest.clone().all(|(f, _)| roof.mesh.area(f) > 0.1));
+    assert_eq!(mesh_checks::defects(&roof.mesh, &[mesh_checks::Defect::OpenEdge]), []);
+}
