@@ -104,3 +104,20 @@ fn every_stage_case_is_a_test_or_listed() {
     wrong.extend(listed.iter().filter(|l| !ids.contains(l)).map(|l| format!("{l} is no case")));
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
+
+/// `docs/numerics.md` names tests; every name in the last columns of its tables must be one.
+#[test]
+fn the_tests_that_the_manual_names_exist() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let text = std::fs::read_to_string(root.join("docs/numerics.md")).expect("docs/numerics.md");
+    let mut tests = BTreeMap::new();
+    count_tests(&root.join("src"), &mut tests);
+    let mut named = 0;
+    for line in text.lines().filter(|l| l.starts_with('|')) {
+        for name in line.split('`').skip(1).step_by(2).filter(|n| n.len() > 6 && !n.contains([':', '.', ' '])) {
+            assert!(tests.contains_key(name), "{name} is no test");
+            named += 1;
+        }
+    }
+    assert!(named > 80, "{named}");
+}

@@ -105,6 +105,19 @@ proptest! {
         prop_assert!((each - covered).abs() < tolerance, "{each} in faces, {covered} covered");
     }
 
+    /// Time only goes forward: what is left inside lies in what was left before, and is less.
+    #[test]
+    fn levels_lie_within_each_other(p in footprints(), shares in prop::array::uniform2(0.0..1.0f64)) {
+        let top = skeleton(&p, None).expect("a skeleton").nodes.iter().fold(0.0, |m, n| f64::max(m, n.time));
+        let (near, far) = (shares[0].min(shares[1]) * top, shares[0].max(shares[1]) * top);
+        let [outer, inner] = [near, far].map(|d| offset(&p, -d).expect("an offset").inside);
+        let area = |set: &[Polygon]| set.iter().map(Polygon::area).sum::<f64>();
+        let tolerance = 1e-8 * girth(&p) * extent(&p);
+        let common = area(&intersection(&outer, &inner).expect("sound"));
+        prop_assert!((common - area(&inner)).abs() < tolerance, "{common} of {}", area(&inner));
+        prop_assert!(area(&inner) <= area(&outer) + tolerance && area(&outer) <= p.area() + tolerance);
+    }
+
     /// Every edge as often forth as back, V - E + F = 2 - 2 h, volume = area x height + roof; closed in 32 bits too.
     #[test]
     fn buildings_are_closed_and_have_their_volume(p in separate()) {
