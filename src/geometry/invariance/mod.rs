@@ -7,6 +7,7 @@
 //! extent), and results follow to what that step does to them (`../shared/numerics.md` sections 3 and 11): shapes with a margin
 //! keep their topology, all others their areas and volumes.
 
+mod laws;
 mod regions;
 mod roofs;
 mod skeletons;

@@ -158,7 +158,7 @@ fn typed_errors() {
 /// Outlines around the origin: random distances at random angles, rounded to a grid of few steps to make ties.
 fn outline() -> impl Strategy<Value = Polygon> {
     let corners = prop::collection::vec((0.0..1.0f64, 0.2..1.0f64), 3..24);
-    (corners, prop::sample::select(vec![4, 7, 10, 40])).prop_filter_map("no polygon", |(mut corners, bits)| {
+    (corners, prop::sample::select(vec![4, 7, 10, 14, 40])).prop_filter_map("no polygon", |(mut corners, bits)| {
         corners.sort_by(|p, q| p.0.total_cmp(&q.0));
         let unit = libm::ldexp(100.0, -bits);
         let corner = |(turn, r): (f64, f64)| {
