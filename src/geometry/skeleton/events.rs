@@ -5,8 +5,8 @@
 //! again, so nothing is discarded for good.
 
 use std::cmp::Ordering;
-use std::collections::BinaryHeap;
 
+use super::heap::Heap;
 use super::line::{Moment, determinant, time_numerator};
 use super::splits::{ReflexList, Split};
 use super::wavefront::{LineId, VertexId, Wavefront};
@@ -26,31 +26,10 @@ pub(super) enum Kind {
     Split { vertex: VertexId, fragment: VertexId, stamp: u32 },
 }
 
-impl Ord for Event {
-    /// Reversed, so that the heap gives the earliest first.
-    fn cmp(&self, other: &Event) -> Ordering {
-        other.moment.compare(&self.moment)
-    }
-}
-
-impl PartialOrd for Event {
-    fn partial_cmp(&self, other: &Event) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl PartialEq for Event {
-    fn eq(&self, other: &Event) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
-}
-
-impl Eq for Event {}
-
 /// The queue of events and what it remembers of every vertex.
 #[derive(Debug)]
 pub(super) struct Events {
-    pub(super) heap: BinaryHeap<Event>,
+    pub(super) heap: Heap,
     /// When the fragment that starts in a vertex vanishes.
     pub(super) vanish: Vec<Option<Moment>>,
     pub(super) splits: Vec<Split>,
@@ -67,7 +46,7 @@ pub(super) const FIRST_STEP: u32 = 1;
 impl Default for Events {
     fn default() -> Events {
         Events {
-            heap: BinaryHeap::new(),
+            heap: Heap::default(),
             vanish: Vec::new(),
             splits: Vec::new(),
             reflex: ReflexList::default(),
@@ -80,7 +59,8 @@ impl Default for Events {
 impl Events {
     /// The earliest event that still holds, if it is not later than `stop`; the present moves on to it.
     pub fn next(&mut self, wf: &Wavefront, stop: Option<&Moment>) -> Option<Event> {
-        loop {
+        // All that is left in the queue belongs to the dead.
+        while !wf.active.is_empty() {
             let event = *self.heap.peek()?;
             if stop.is_some_and(|stop| event.moment.compare(stop) == Ordering::Greater) {
                 return None;
@@ -106,6 +86,7 @@ impl Events {
             self.advance(event.moment);
             return Some(event);
         }
+        None
     }
 
     fn advance(&mut self, moment: Moment) {

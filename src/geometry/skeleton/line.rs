@@ -66,9 +66,15 @@ pub(super) struct Moment {
 impl Moment {
     pub const START: Moment = Moment { tau: 0.0, t: 0, d: 1 };
 
+    /// With τ to three units of its last place.
     pub fn new(t: i128, d: i128) -> Moment {
         let (t, d) = if d < 0 { (-t, -d) } else { (t, d) };
-        Moment { tau: t as f64 / d as f64, t, d }
+        Moment { tau: close(t) / close(d), t, d }
+    }
+
+    /// With τ to one unit of its last place.
+    fn rounded(self) -> Moment {
+        Moment { tau: self.t as f64 / self.d as f64, ..self }
     }
 
     /// Exact comparison; floats decide where they can.
@@ -79,6 +85,16 @@ impl Moment {
         }
         I256::product(self.t, other.d).minus(I256::product(other.t, self.d)).signum().cmp(&0)
     }
+}
+
+/// A float within two units of its last place, in fewer steps than one that is rounded to the nearest.
+fn close(v: i128) -> f64 {
+    const HALF: f64 = 18_446_744_073_709_551_616.0; // 2^64
+    let magnitude = v.unsigned_abs();
+    let (high, low) = ((magnitude >> 64) as u64, magnitude as u64);
+    // What is shifted out is below a unit of the last place, unless there is no upper half.
+    let float = if high == 0 { low as f64 } else { high as i64 as f64 * HALF + (low >> 11) as i64 as f64 * 2048.0 };
+    if v < 0 { -float } else { float }
 }
 
 /// D of three lines: 0 if they never meet in one point (or always).
@@ -110,7 +126,7 @@ impl Place {
         if d == 0 {
             return None;
         }
-        let moment = Moment::new(time_numerator(p, e, q), d);
+        let moment = Moment::new(time_numerator(p, e, q), d).rounded();
         let minor = |u: i64, v: i64, s: i64, t: i64| i128::from(u) * i128::from(v) - i128::from(s) * i128::from(t);
         let term = |c: &Line, minor: i128| I256::product(c.c.into(), minor);
         let x = term(p, minor(e.b, q.w, q.b, e.w)).minus(term(e, minor(p.b, q.w, q.b, p.w)));
@@ -218,5 +234,9 @@ mod tests {
         assert_eq!(third.compare(&Moment::new(-5, -15)), Ordering::Equal);
         assert_eq!(third.compare(&close), Ordering::Less);
         assert_eq!(third.tau, close.tau);
+        for (t, d) in [(-1, 3), (1 << 70, (1 << 64) - 1), (-(1 << 120) - 12_345, (1 << 119) + 987), (0, 1 << 90)] {
+            let tau = t as f64 / d as f64;
+            assert!((Moment::new(t, d).tau - tau).abs() <= 7e-16 * tau.abs());
+        }
     }
 }

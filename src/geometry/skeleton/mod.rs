@@ -5,6 +5,7 @@
 
 mod events;
 mod faces;
+mod heap;
 mod line;
 mod meet;
 mod path;
@@ -273,7 +274,9 @@ fn finish(
     tops: Vec<Vec<NodeId>>,
 ) -> Skeleton {
     let mut nodes: Vec<Node> = Vec::with_capacity(wf.nodes.len());
-    nodes.extend(polygon.rings().flatten().map(|&position| Node { position, time: 0.0 }));
+    for ring in polygon.rings() {
+        nodes.extend(ring.iter().map(|&position| Node { position, time: 0.0 }));
+    }
     number.clear();
     number.resize(wf.nodes.len(), u32::MAX);
     for (k, n) in number.iter_mut().take(wf.input_nodes).enumerate() {

@@ -46,6 +46,7 @@ impl Path {
         }
     }
 
+    #[inline]
     fn approach(&self, f: &FloatLine) -> Approach {
         let (ax, by, au, bv) = (f.a * self.x, f.b * self.y, f.a * self.dx, f.b * self.dy);
         Approach {
@@ -57,6 +58,7 @@ impl Path {
     }
 
     /// False if the path certainly does not meet the line from its inner side between `now` and `latest`.
+    #[inline]
     pub fn may_meet(&self, f: &FloatLine, now: f64, latest: f64) -> bool {
         let Approach { gap, gap_doubt, speed, speed_doubt } = self.approach(f);
         let leaves = speed < -speed_doubt;

@@ -88,11 +88,17 @@ struct Search<'a> {
 
 impl Search<'_> {
     /// See whether the vertex runs into the fragment that starts in `s`, carried by `line`, earlier than into what it has.
+    #[inline]
     fn see(&mut self, s: VertexId, line: &FloatLine) {
-        let Reflex { path, latest, vertex: v, .. } = self.reflex;
-        if !path.may_meet(line, self.events.now.tau, latest) {
-            return;
+        if self.reflex.path.may_meet(line, self.events.now.tau, self.reflex.latest) {
+            self.consider(s, line);
         }
+    }
+
+    /// The same for a fragment whose line it meets in time.
+    #[inline(never)]
+    fn consider(&mut self, s: VertexId, line: &FloatLine) {
+        let Reflex { path, vertex: v, .. } = self.reflex;
         let wf = self.wf;
         let (vertex, start) = (wf.vertex(v), wf.vertex(s));
         if s == v || start.next == v {
