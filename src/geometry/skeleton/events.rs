@@ -8,6 +8,7 @@ use std::cmp::Ordering;
 
 use super::heap::Heap;
 use super::line::{Moment, determinant, time_numerator};
+use super::slab::Slab;
 use super::splits::{ReflexList, Split};
 use super::wavefront::{LineId, VertexId, Wavefront};
 
@@ -34,6 +35,9 @@ pub(super) struct Events {
     pub(super) vanish: Vec<Option<Moment>>,
     pub(super) splits: Vec<Split>,
     pub(super) reflex: ReflexList,
+    /// Where to look for splits, and until when: for all time if `None`.
+    pub(super) slab: Slab,
+    pub(super) horizon: Option<Moment>,
     /// The present.
     pub(super) now: Moment,
     /// Counts the different moments so far; [`FIRST_STEP`] at the start.
@@ -50,6 +54,8 @@ impl Default for Events {
             vanish: Vec::new(),
             splits: Vec::new(),
             reflex: ReflexList::default(),
+            slab: Slab::default(),
+            horizon: None,
             now: Moment::START,
             step: FIRST_STEP,
         }
@@ -61,7 +67,15 @@ impl Events {
     pub fn next(&mut self, wf: &Wavefront, stop: Option<&Moment>) -> Option<Event> {
         // All that is left in the queue belongs to the dead.
         while !wf.active.is_empty() {
-            let event = *self.heap.peek()?;
+            let event = self.heap.peek().copied();
+            if let Some(horizon) = self.horizon
+                && event.is_none_or(|event| event.moment.compare(&horizon) == Ordering::Greater)
+                && stop.is_none_or(|stop| stop.compare(&horizon) == Ordering::Greater)
+            {
+                self.widen(wf, horizon.tau);
+                continue;
+            }
+            let event = event?;
             if stop.is_some_and(|stop| event.moment.compare(stop) == Ordering::Greater) {
                 return None;
             }
@@ -87,6 +101,11 @@ impl Events {
             return Some(event);
         }
         None
+    }
+
+    /// What the slab rules out.
+    pub fn slab(&self) -> Option<&Slab> {
+        self.horizon.map(|_| &self.slab)
     }
 
     fn advance(&mut self, moment: Moment) {
@@ -132,12 +151,8 @@ impl Events {
         for s in 0..wf.vertices.len() {
             self.schedule_edge(wf, s as VertexId);
         }
-        self.reflex.follow(wf);
-        for v in 0..wf.vertices.len() {
-            if wf.vertices[v].turn < 0 {
-                self.search(wf, v as VertexId);
-            }
-        }
+        self.reflex.follow(wf, true);
+        self.widen(wf, 0.0);
     }
 
     /// Find out when the fragment that starts in `s` vanishes: if D [p,e] [e,q] > 0, at T / D.

@@ -38,9 +38,29 @@ impl FaceBuilder {
         line
     }
 
+    /// Let every line point to the one that stands for it.
+    pub fn flatten(&mut self) {
+        for line in 0..self.parent.len() {
+            self.parent[line] = self.parent[self.parent[line] as usize];
+        }
+    }
+
+    /// [`FaceBuilder::root`], which shortens the way for the next time.
+    fn root_mut(&mut self, mut line: LineId) -> LineId {
+        while let Some(&parent) = self.parent.get(line as usize) {
+            if parent == line {
+                break;
+            }
+            let above = self.parent[parent as usize];
+            self.parent[line as usize] = above;
+            line = above;
+        }
+        line
+    }
+
     /// Let two edges share a face; remembers where they met if they did not share one yet.
     pub fn unite(&mut self, union: Union) {
-        let (left, right) = (self.root(union.left), self.root(union.right));
+        let (left, right) = (self.root_mut(union.left), self.root_mut(union.right));
         if left == right {
             return;
         }

@@ -4,6 +4,7 @@
 
 use std::cmp::Ordering;
 
+use super::wavefront::FloatLine;
 use crate::geometry::predicates::{I256, gcd};
 
 /// The line of an edge, moving inwards (to the left of the edge) with speed w / |(a, b)| per unit of τ.
@@ -159,18 +160,28 @@ impl Place {
     /// Exact side of the place as seen from `line` at the moment: 1 inside, 0 on it, -1 outside. Only for places made by
     /// [`Place::of`].
     pub fn side(&self, line: &Line) -> i32 {
-        match self.float_side(line.a as f64, line.b as f64, line.c as f64, line.w as f64) {
-            Some(side) => side,
-            None => self.exact_side(line),
+        let (side, doubt) = self.float_side(line.a as f64, line.b as f64, line.c as f64, line.w as f64);
+        if side.abs() <= doubt {
+            self.exact_side(line)
+        } else if side > 0.0 {
+            1
+        } else {
+            -1
         }
     }
 
-    /// The side by floats, unless in doubt.
-    pub fn float_side(&self, a: f64, b: f64, c: f64, w: f64) -> Option<i32> {
+    /// The side by floats, and the doubt about it.
+    #[inline]
+    fn float_side(&self, a: f64, b: f64, c: f64, w: f64) -> (f64, f64) {
         let (ax, by, wt) = (a * self.x, b * self.y, w * self.moment.tau);
-        let side = ax + by + c - wt;
-        let certain = side.abs() > DOUBT * (ax.abs() + by.abs() + c.abs() + wt.abs());
-        certain.then_some(if side > 0.0 { 1 } else { -1 })
+        (ax + by + c - wt, DOUBT * (ax.abs() + by.abs() + c.abs() + wt.abs()))
+    }
+
+    /// False if floats tell that the place is not on the line.
+    #[inline]
+    pub fn may_be_on(&self, line: &FloatLine) -> bool {
+        let (side, doubt) = self.float_side(line.a, line.b, line.c, line.w);
+        side.abs() <= doubt
     }
 
     /// The side by integers.

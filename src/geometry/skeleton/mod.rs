@@ -3,6 +3,7 @@
 //! In: a repaired [`Polygon`] and, if wanted, one speed per edge. Out: nodes with the time at which the shrinking
 //! outline reaches them, and one face per edge. Time is distance from the eaves where the weight is 1.
 
+mod cells;
 mod events;
 mod faces;
 mod heap;
@@ -11,6 +12,7 @@ mod meet;
 mod path;
 mod quad;
 mod setup;
+mod slab;
 mod splits;
 mod unite;
 mod wavefront;
@@ -155,6 +157,7 @@ impl Workspace {
         shrink(wf, &mut self.events, &mut self.meeting, stop.as_ref())?;
         let (mut tops, top_pieces) = stand_still(wf, stop)?;
         weld_nodes(wf, weld);
+        wf.faces.flatten();
         let mut faces = chain_faces(wf, weld, &top_pieces, chainer)?;
         for node in tops.iter_mut().flatten() {
             *node = weld[*node as usize];
@@ -191,7 +194,7 @@ fn shrink(
         let lines = events.lines(wf, &event);
         let [p, e, q] = lines.map(|id| wf.line(id));
         let place = Place::of(p, e, q).ok_or(SkeletonError::Unresolved)?;
-        if meeting.settle(wf, &place, lines, events.step)? {
+        if meeting.settle(wf, &place, lines, events.step, events.slab())? {
             meeting.changed.retain(|&v| wf.vertex(v).alive);
             meeting.changed.sort_unstable();
             meeting.changed.dedup();
