@@ -49,7 +49,7 @@ pub(super) fn set_up(
 ) -> Result<Setup, SkeletonError> {
     let count = polygon.rings().map(Vec::len).sum();
     let fastest = check_weights(weights, count)?;
-    if polygon.rings().flatten().any(|p| !p.is_finite()) {
+    if polygon.rings().any(|ring| ring.iter().any(|p| !p.is_finite())) {
         return Err(SkeletonError::NotFinite);
     }
     if polygon.outer.len() < 3 {
