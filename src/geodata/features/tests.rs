@@ -86,9 +86,9 @@ fn small_shared_maps_make_features() {
     let files = [
         ("osm/west-oakland-ca.osm.bz2", 151, 0),
         ("osm/chicago-back-of-the-yards.osm", 1_796, 0),
-        ("osm/munich-altstadt.osm.gz", 476, 137),
-        ("osm/monaco.osm.pbf", 1_205, 13),
-        ("hazards/monaco-lz4.osm.pbf", 1_205, 13),
+        ("osm/munich-altstadt.osm.gz", 476, 130),
+        ("osm/monaco.osm.pbf", 1_205, 11),
+        ("hazards/monaco-lz4.osm.pbf", 1_205, 11),
         ("osm/baltimore-harbor.osm.pbf", 1_737, 0),
         ("hazards/la-split-buildings.geojson.gz", 4_151, 0),
     ];
