@@ -149,7 +149,8 @@ fn clean(rings: &[Ring], options: &Options, notes: &mut Vec<Note>) -> Result<Vec
 
     // 4. Fast path: already simple, disjoint and nested. 5. Slow path: fill, unite, subtract.
     let plain = to_plan(&[vec![outline.clone()], holes.clone()].concat(), &grid);
-    let polygons = if is_strictly_valid(&plain) {
+    let has_needle = std::iter::once(&outline).chain(&holes).any(|r| engine::needle(r).is_some());
+    let polygons = if is_strictly_valid(&plain) && !has_needle {
         vec![plain]
     } else {
         notes.push(Note::CrossingsResolved);

@@ -208,15 +208,19 @@ impl Chainer {
     }
 }
 
-/// Nodes closer than this many grid steps are one.
+/// Nodes closer than this many grid steps are one, where that folds no face.
 pub(super) const WELD_STEPS: f64 = 8.0;
+
+/// What f64 rounds exact places by, and some, in grid steps: nodes that close are one in any case.
+pub(super) const ROUNDING_STEPS: f64 = 1e-4;
 
 /// In a unit of τ a line of weight 1 moves 2^32 grid steps.
 pub(super) const STEPS_PER_TAU: f64 = 4_294_967_296.0;
 
-/// Into `parent`, for every node the node that stands for it: ends of short arcs are united, inner nodes with each other or with one
-/// input node, never two input nodes.
-pub(super) fn weld_nodes(wf: &Wavefront, parent: &mut Vec<NodeId>) {
+/// Into `parent`, for every node the node that stands for it: ends of arcs shorter than `steps` are united, inner nodes
+/// with each other or with one input node, never two input nodes. Whether places moved by more than rounding.
+pub(super) fn weld_nodes(wf: &Wavefront, parent: &mut Vec<NodeId>, steps: f64) -> bool {
+    let mut moved = false;
     parent.clear();
     parent.extend(0..wf.nodes.len() as NodeId);
     let root = |parent: &[NodeId], mut n: NodeId| {
@@ -229,17 +233,20 @@ pub(super) fn weld_nodes(wf: &Wavefront, parent: &mut Vec<NodeId>) {
         let (p, q) = (root(parent, arc.from), root(parent, arc.to));
         let (low, high) = (p.min(q), p.max(q));
         let two_inputs = (high as usize) < wf.input_nodes;
-        if low != high && !two_inputs && near(&wf.nodes[low as usize], &wf.nodes[high as usize]) {
+        let (kept, other) = (&wf.nodes[low as usize], &wf.nodes[high as usize]);
+        if low != high && !two_inputs && near(kept, other, steps) {
             parent[high as usize] = low;
+            moved |= !near(kept, other, ROUNDING_STEPS);
         }
     }
     // The lower number stands for the higher one: one pass upwards.
     for n in 0..parent.len() {
         parent[n] = parent[parent[n] as usize];
     }
+    moved
 }
 
-pub(super) fn near(p: &GridNode, q: &GridNode) -> bool {
+pub(super) fn near(p: &GridNode, q: &GridNode, steps: f64) -> bool {
     let (dx, dy, dt) = (p.x - q.x, p.y - q.y, (p.tau - q.tau) * STEPS_PER_TAU);
-    dx * dx + dy * dy + dt * dt < WELD_STEPS * WELD_STEPS
+    dx * dx + dy * dy + dt * dt < steps * steps
 }

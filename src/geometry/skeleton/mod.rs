@@ -6,6 +6,7 @@
 mod cells;
 mod events;
 mod faces;
+mod fold;
 mod heap;
 mod line;
 mod meet;
@@ -25,7 +26,7 @@ use std::cell::Cell;
 use glam::DVec2;
 
 use self::events::{Event, Events, Kind};
-use self::faces::{Chainer, FaceLoops, chain_faces, weld_nodes};
+use self::faces::{Chainer, FaceLoops, ROUNDING_STEPS, WELD_STEPS, chain_faces, weld_nodes};
 use self::line::{Moment, Place};
 use self::meet::Meeting;
 pub(crate) use self::setup::Options;
@@ -156,9 +157,13 @@ impl Workspace {
         let stop = time.map(|time| stop_moment(time, setup.metres_per_tau)).transpose()?;
         shrink(wf, &mut self.events, &mut self.meeting, stop.as_ref())?;
         let (mut tops, top_pieces) = stand_still(wf, stop)?;
-        weld_nodes(wf, weld);
+        let moved = weld_nodes(wf, weld, WELD_STEPS);
         wf.faces.flatten();
         let mut faces = chain_faces(wf, weld, &top_pieces, chainer)?;
+        if moved && fold::any(wf, &faces) {
+            weld_nodes(wf, weld, ROUNDING_STEPS);
+            faces = chain_faces(wf, weld, &top_pieces, chainer)?;
+        }
         for node in tops.iter_mut().flatten() {
             *node = weld[*node as usize];
         }
