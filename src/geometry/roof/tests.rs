@@ -457,3 +457,12 @@ fn rings_that_touch_in_a_corner_double_no_corner() {
     assert_eq!(open_edges(&roof.mesh), []);
     assert_eq!(edges_run_twice_the_same_way(&roof.mesh), []);
 }
+
+/// Found by `any_rings_are_answered`.
+#[test]
+fn an_outline_without_points_has_no_roof() {
+    for shape in RoofShape::ALL.into_iter().filter(|s| *s != RoofShape::Flat) {
+        let made = shape.build(&Polygon::default(), Slope::Angle(40.0), Facing::Natural);
+        assert_eq!(made, Err(RoofError::Skeleton(SkeletonError::TooFewPoints)), "{shape:?}");
+    }
+}
