@@ -15,7 +15,7 @@ use super::shed::{shed, skillion};
 use super::{Roof, RoofError, RoofWarning, Slope};
 use crate::geometry::polygon::Polygon;
 use crate::geometry::rectangle::least_around;
-use crate::geometry::skeleton::skeleton;
+use crate::geometry::skeleton::{SkeletonError, skeleton};
 
 /// A value of `roof:shape`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -113,6 +113,9 @@ impl RoofShape {
     pub fn build(self, polygon: &Polygon, slope: Slope, facing: Facing) -> Result<Option<Roof>, RoofError> {
         if self == RoofShape::Flat || slope.tangent(1.0)? == 0.0 {
             return Ok(None);
+        }
+        if polygon.outer.len() < 3 {
+            return Err(SkeletonError::TooFewPoints.into());
         }
         let bend = || Profile::bent(BEND);
         let barrel = || Profile::quarter_circle(BANDS);

@@ -523,3 +523,12 @@ fn half_hips_leave_some_of_a_short_ridge() {
         assert_eq!(mesh_checks::defects(&short.mesh, &[]), [], "{fraction}");
     }
 }
+
+/// Found by `any_rings_are_answered`.
+#[test]
+fn an_outline_without_points_has_no_roof() {
+    for shape in RoofShape::ALL.into_iter().filter(|s| *s != RoofShape::Flat) {
+        let made = shape.build(&Polygon::default(), Slope::Angle(40.0), Facing::Natural);
+        assert_eq!(made, Err(RoofError::Skeleton(SkeletonError::TooFewPoints)), "{shape:?}");
+    }
+}
