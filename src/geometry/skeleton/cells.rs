@@ -143,3 +143,51 @@ impl Lists {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    proptest! {
+        /// Every point between the spots is in one of the cells, also outside of the frame.
+        #[test]
+        fn covers_the_hull(
+            corners in prop::collection::vec(prop::array::uniform2(-2e3..2e3f64), 2..5),
+            (size, cells) in (prop::array::uniform2(1.0..1e3f64), 1usize..400),
+            shares in prop::collection::vec(prop::array::uniform4(0.0..1.0f64), 50),
+        ) {
+            let frame = Frame::over([-100.0, -50.0], [size[0] - 100.0, size[1] - 50.0], cells);
+            let spots: Vec<Spot> = corners.iter().map(|&at| Spot { at, pad: 1e-6 }).collect();
+            let mut cover = Cover::default();
+            frame.cover(&spots, &mut cover);
+            prop_assume!(!cover.large);
+            for share in shares {
+                let total: f64 = share[..spots.len()].iter().sum();
+                let mean = |axis: usize| -> f64 { (0..spots.len()).map(|k| corners[k][axis] * share[k] / total).sum() };
+                let cell = frame.cell([mean(0), mean(1)]) as u32;
+                prop_assert!(cover.cells.contains(&cell));
+            }
+        }
+
+        /// The number of cells is about the one asked for.
+        #[test]
+        fn frames_have_about_the_cells_wanted(size in prop::array::uniform2(1.0..1e8f64), cells in 1usize..20_000) {
+            let frame = Frame::over([0.0, 0.0], size, cells);
+            prop_assert!(frame.cells() <= 4 * cells + 4, "{} for {cells}", frame.cells());
+        }
+    }
+
+    #[test]
+    fn lists_give_back_what_was_entered() {
+        let mut lists = Lists::default();
+        lists.clear(4);
+        lists.enter(&Cover { cells: vec![1, 3], large: false }, 7);
+        lists.enter(&Cover { cells: vec![3], large: false }, 8);
+        lists.enter(&Cover { cells: vec![0], large: true }, 9);
+        let cell = |k: usize| lists.in_cell(k).collect::<Vec<u32>>();
+        assert_eq!((cell(0), cell(1), cell(3)), (vec![], vec![7], vec![8, 7]));
+        assert_eq!(lists.large, [9]);
+    }
+}
