@@ -106,9 +106,13 @@ fn is_undecided(number: usize, p: &Polygon, choice: &Choice, motion: &Motion) ->
             let along = |i: usize| edge(i).normalize().dot(d).abs();
             let turn = |i: usize| along(i).min((1.0 - along(i).powi(2)).max(0.0).sqrt());
             let crosses = |j: usize| edge(i).normalize().perp_dot(edge(j).normalize()).abs() > 1e-9;
-            (0..i).any(|j| (turn(i) - turn(j)).abs() < 1e-6 && crosses(j))
+            (0..i).any(|j| (turn(i) - turn(j)).abs() < 1e-6 && (n > 4 || crosses(j)))
         }),
-        Facing::Along | Facing::Across => lengths_tie,
+        // Of more than four edges two that are parallel may both end the ridge.
+        Facing::Along | Facing::Across => {
+            let parallel = |i: usize, j: usize| edge(i).normalize().perp_dot(edge(j).normalize()).abs() < 1e-9;
+            lengths_tie || (n > 4 && (0..n).any(|i| (0..i).any(|j| parallel(i, j))))
+        }
     };
     // A rectangle and its first edge look the same in a mirror; a saltbox does not.
     let is_saltbox = number >= 17 && RoofShape::ALL[number - 17] == RoofShape::Saltbox;
