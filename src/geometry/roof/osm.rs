@@ -13,6 +13,7 @@ use super::ridge::ridge;
 use super::saltbox::saltbox;
 use super::shed::{shed, skillion};
 use super::{Roof, RoofError, RoofWarning, Slope};
+use crate::geometry::grid::Grid;
 use crate::geometry::polygon::Polygon;
 use crate::geometry::rectangle::least_around;
 use crate::geometry::skeleton::{SkeletonError, skeleton};
@@ -116,6 +117,9 @@ impl RoofShape {
         }
         if polygon.outer.len() < 3 {
             return Err(SkeletonError::TooFewPoints.into());
+        }
+        if polygon.bounds().and_then(|(low, high)| Grid::over(low, high)).is_none() {
+            return Err(SkeletonError::NotFinite.into());
         }
         let bend = || Profile::bent(BEND);
         let barrel = || Profile::quarter_circle(BANDS);

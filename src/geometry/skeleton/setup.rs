@@ -59,6 +59,10 @@ pub(super) fn set_up(
     if min == max {
         return Err(SkeletonError::TooFewPoints);
     }
+    // Beyond the outline's box a hole would leave the grid.
+    if polygon.holes.iter().flatten().any(|p| p.cmplt(min).any() || p.cmpgt(max).any()) {
+        return Err(SkeletonError::NotSimple);
+    }
     let grid = Grid::over(min, max).ok_or(SkeletonError::NotFinite)?;
     wavefront.clear();
     sides.clear();

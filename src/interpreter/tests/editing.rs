@@ -113,7 +113,7 @@ fn cleanup_leaves_no_way_there_and_back() {
     assert_eq!(counts(&tree), (1, 4));
     near(&areas(&tree, "A"), &[60.0]);
     let roof = run("Lot --> cleanupGeometry(vertices, 0.2) roofGable(30) A.", &fin);
-    near(&[volume(&roof.leaves[0].mesh)], &[10.0 * 6.0 * 3.0 * 30f64.to_radians().tan() / 2.0]);
+    near(&[volume(&roof.leaves[0].mesh)], &[10.0 * 6.0 * 3.0 * libm::tan(30f64.to_radians()) / 2.0]);
 }
 
 /// way/177621195 in Baltimore: an arm 6 cm wide whose end became a point, so that its sides changed places.
