@@ -98,7 +98,7 @@ fn print_row(row: &Row, seed: u64, cgal: Option<&Cgal>, limit: Duration) {
     let Timing { best, median, height } = ours;
     let start = format!("| {} | {} | {} | {} | {} |", row.n, row.class, row.count, micros(best), micros(median));
     let rest = match theirs {
-        Outcome::Missing => "not installed | | | |".to_owned(),
+        Outcome::Missing => "not run | | | |".to_owned(),
         Outcome::Cut { least } => {
             format!("over {} | | under {} | over {:.0} |", micros(least), per_second(least), least / best)
         }
