@@ -1,14 +1,20 @@
 //! The gallery of hard footprints. In: `../shared/hard-cases/footprints.geojson`. Out: `docs/hard-cases.md` and a drawing
 //! per case, as they must be. `MANSARD_BLESS=1` writes them.
 
+#[expect(dead_code, reason = "the library's own tests ask for footprints by name")]
+#[path = "../../src/geometry/hard_cases.rs"]
+mod footprints;
+
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use glam::{DVec2, DVec3};
-use mansard::geometry::Ring;
 use mansard::geometry::repair::{Note, Options, Repaired, Verdict, repair};
 use mansard::geometry::roof::{Roof, RoofPart, Slope, hip};
+use mansard::geometry::{Polygon, Ring};
 use serde_json::Value;
+
+use footprints::{features, rings};
 
 const INTRODUCTION: &str = "# Hard footprints
 
@@ -28,35 +34,6 @@ const MOST_EDGES: usize = 130;
 
 fn docs() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("docs")
-}
-
-/// The features, or nothing with a word where the shared folder is not there.
-fn features() -> Option<Vec<Value>> {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/hard-cases/footprints.geojson");
-    let Ok(text) = std::fs::read_to_string(path) else {
-        assert!(std::env::var_os("CI").is_none(), "{path} is missing");
-        eprintln!("skipped: {path} is missing");
-        return None;
-    };
-    let mut file: Value = serde_json::from_str(&text).expect("JSON");
-    Some(std::mem::take(file["features"].as_array_mut().expect("features")))
-}
-
-/// The rings of a feature, without the closing points of GeoJSON, with the values that JSON cannot hold.
-fn rings(feature: &Value) -> Vec<Ring> {
-    let number = |v: &Value| v.as_f64().expect("a coordinate");
-    let point = |v: &Value| DVec2::new(number(&v[0]), number(&v[1]));
-    let ring = |r: &Value| r.as_array().expect("a ring").iter().map(point).collect();
-    let coordinates = feature["geometry"]["coordinates"].as_array().expect("rings");
-    let mut rings: Vec<Ring> = coordinates.iter().map(ring).collect();
-    for r in &mut rings {
-        r.pop();
-    }
-    for change in feature["properties"]["replace"].as_array().into_iter().flatten() {
-        let at = |i: usize| change[i].as_u64().expect("an index") as usize;
-        rings[at(0)][at(1)][at(2)] = change[3].as_str().expect("a value").parse().expect("NaN or Infinity");
-    }
-    rings
 }
 
 fn text<'a>(feature: &'a Value, key: &str) -> &'a str {

@@ -150,6 +150,21 @@ fn defects_have_names_and_counts() {
     assert_eq!(names.len(), Defect::ALL.len());
 }
 
+/// Found by the fuzz target `geometry`: the mean normal of a face of 4e-6 m² says nothing about its plane.
+#[test]
+fn slivers_have_planes() {
+    let positions = vec![
+        DVec3::new(5.1000179052352905, 0.0, 7.87851357460022),
+        DVec3::new(8.765467762947083, 0.0, 3.662374496459961),
+        DVec3::new(5.100017070770264, 0.0, 7.878512978553772),
+        DVec3::new(3.3941247479358694, 1.0928475136664573, 8.17502791430844),
+    ];
+    let mut sliver = Mesh { positions, faces: vec![Face::new(vec![0, 1, 2, 3])] };
+    assert_eq!(non_planar_faces(&sliver, 1e-5), []);
+    sliver.positions[2] += DVec3::new(0.0, 0.2, 0.5);
+    assert_eq!(non_planar_faces(&sliver, 1e-5).len(), 1);
+}
+
 proptest! {
     /// Without triangles and with them: prisms over stars.
     #[test]

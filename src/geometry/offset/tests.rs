@@ -153,3 +153,34 @@ fn outlines_with_details_below_the_coarser_grid_grow() {
         assert!((strips - (wanted - 600.0)).abs() < 1e-4 * distance, "{distance}: {strips}");
     }
 }
+
+/// Found by the fuzz target `geometry`: a bevel where sharp corners touch vanished, and the front ran to the frame.
+#[test]
+fn sharp_corners_that_touch_keep_their_bevel() {
+    let outer = [
+        (0.3700000047683716, 0.0),
+        (0.09431374073028564, -0.2684313654899597),
+        (0.10673075914382935, -0.26326924562454224),
+        (0.0, -0.3700000047683716),
+        (0.0, -0.3602631688117981),
+        (0.09431374073028564, -0.2684313654899597),
+        (-4.443333327770233, -4.686666667461395),
+        (-6.662499129772186, -6.84743332862854),
+        (-2.1295555233955383, -11.502888917922974),
+        (0.0, -11.100000023841858),
+        (0.0, -6.93876713514328),
+        (13.319999992847443, -13.689999997615814),
+        (0.4744355082511902, -0.11040323972702026),
+        (0.7252662181854248, -0.006125271320343018),
+    ];
+    let p = polygon(&outer, &[]);
+    for distance in [0.07805663719773293, 0.5463964603841305, 6.0] {
+        let made = offset(&p, distance).unwrap();
+        let around: f64 = made.inside.iter().flat_map(|p| &p.outer).map(|p| p.abs().max_element()).fold(0.0, f64::max);
+        assert!(inside_area(&made) > p.area(), "{distance}: {}", inside_area(&made));
+        // The farthest corner, and the longest mitre.
+        assert!(around < 13.7 + 4.5 * distance, "{distance}: {around}");
+        let strips: f64 = border_areas(&made).iter().map(|b| b.1.abs()).sum();
+        assert!(inside_area(&made) - p.area() >= strips - 1e-3, "{distance}: {strips}");
+    }
+}

@@ -6,15 +6,17 @@
 mod classes;
 mod double_area;
 mod extracts;
+#[expect(dead_code, reason = "the library's own tests ask for footprints by name")]
+#[path = "../../../src/geometry/hard_cases.rs"]
+mod hard_cases;
 mod judge;
 mod plans;
 mod random;
 
 use std::time::Duration;
 
-use glam::DVec2;
-use mansard::geometry::Ring;
 use mansard::geometry::repair::{Options, Verdict};
+use mansard::geometry::{Polygon, Ring};
 use serde_json::Value;
 
 use classes::{CLASSES, Class};
@@ -133,10 +135,7 @@ fn main() {
 
 /// The named hard footprints.
 fn hard() {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/hard-cases/footprints.geojson");
-    let Ok(text) = std::fs::read_to_string(path) else { return eprintln!("skipped: {path} is missing") };
-    let file: Value = serde_json::from_str(&text).expect("JSON");
-    let features = file["features"].as_array().expect("features");
+    let Some(features) = hard_cases::features() else { return };
     let class = |f: &Value| f["properties"]["class"].as_str().expect("a class").to_owned();
     let mut names: Vec<String> = features.iter().map(class).collect();
     names.sort();
@@ -144,26 +143,10 @@ fn hard() {
     let mut table = Table::new("hard case");
     for name in names {
         let members = features.iter().filter(|f| class(f) == name);
-        let named = members.map(|f| (f["properties"]["name"].to_string(), rings(f)));
+        let named = members.map(|f| (f["properties"]["name"].to_string(), hard_cases::rings(f)));
         table.row(&name, named, &Options { weld: 0.0, min_area: 0.0 });
     }
     table.close();
-}
-
-/// The rings of a feature, without the closing points of GeoJSON, with the values that JSON cannot hold.
-fn rings(feature: &Value) -> Vec<Ring> {
-    let number = |v: &Value| v.as_f64().expect("a coordinate");
-    let point = |v: &Value| DVec2::new(number(&v[0]), number(&v[1]));
-    let ring = |r: &Value| r.as_array().expect("a ring").iter().map(point).collect();
-    let mut rings: Vec<Ring> = feature["geometry"]["coordinates"].as_array().expect("rings").iter().map(ring).collect();
-    for r in &mut rings {
-        r.pop();
-    }
-    for change in feature["properties"]["replace"].as_array().into_iter().flatten() {
-        let at = |i: usize| change[i].as_u64().expect("an index") as usize;
-        rings[at(0)][at(1)][at(2)] = change[3].as_str().expect("a value").parse().expect("NaN or Infinity");
-    }
-    rings
 }
 
 /// Every building of every extract.
