@@ -59,12 +59,13 @@ impl Tracer {
         let seed = Seed::root(options.seed).named(&view.name);
         let (width, height) = (view.camera.width as usize, view.camera.height as usize);
         let mut sums = vec![Sum::default(); width * height];
+        let side = options.side;
         for pass in 0..options.passes {
             sums.par_chunks_mut(width.max(1)).enumerate().for_each(|(y, row)| {
                 for (x, sum) in row.iter_mut().enumerate() {
                     let key = seed.part((y as u64) << 32 | x as u64).part(u64::from(pass));
-                    let strata = Strata::new(key, options.side);
-                    sum.add(self.mean(view, &lighting, (x, y), &strata, options.side));
+                    let strata = Strata::new(key, side);
+                    sum.add(self.mean(view, &lighting, (x, y), &strata, side));
                 }
             });
             let error = (pass > 0).then(|| mean_error(&sums));
@@ -75,7 +76,7 @@ impl Tracer {
             }
         }
         Estimate {
-            samples: sums.first().map_or(0, |sum| sum.passes * options.side * options.side),
+            samples: sums.first().map_or(0, |sum| sum.passes * side * side),
             linear: sums.iter().map(|sum| sum.mean).collect(),
             standard_error: sums.iter().map(Sum::standard_error).collect(),
             mean_standard_error: mean_error(&sums),
@@ -131,10 +132,8 @@ impl Tracer {
             let ray = self.ray(camera::ray(&view.camera, f64::from(x) + 0.5, f64::from(y) + 0.5));
             of(self.nearest(&ray, view.camera.near, &output.selection.objects))
         };
-        (0..height)
-            .into_par_iter()
-            .flat_map_iter(|y| (0..width).map(move |x| (y, x)).map(|(y, x)| pixel(y, x)))
-            .collect()
+        let pixel = &pixel;
+        (0..height).into_par_iter().flat_map_iter(|y| (0..width).map(move |x| pixel(y, x))).collect()
     }
 }
 

@@ -11,7 +11,7 @@ fn draw(seed: Seed, number: u64) -> f64 {
 /// A closed surface: an octahedron with corners that no grid holds, split twice at jittered midpoints.
 fn ball(seed: Seed) -> Vec<Triangle> {
     let corner = |k: usize, sign: f64| {
-        let mut p = [0.0; 3].map(|_: f64| 0.0);
+        let mut p = [0.0; 3];
         p[k] = sign * (1.0 + 0.3 * seed.part(k as u64 * 2 + u64::from(sign > 0.0)).unit());
         p
     };
