@@ -11,7 +11,6 @@ use super::{Estimate, Options, Progress, ReferenceError};
 use crate::frame::{Frame, Image, Pixels};
 use crate::interpreter::seed::Seed;
 use crate::plan::demand::{BACKGROUND, Output, OutputDemand, ViewDemand};
-use crate::plan::summary::ObjectSummary;
 
 /// The images of a view and, for each colour image, how sure it is.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,15 +21,10 @@ pub struct Rendered {
 }
 
 impl Tracer {
-    /// Renders what the view demands, on the threads of the current rayon pool. `objects` is the summary of the scene
-    /// that the tracer was made of. The demand's quality does not matter here.
-    pub fn render(
-        &self,
-        view: &ViewDemand,
-        objects: &[ObjectSummary],
-        options: &Options,
-    ) -> Result<Rendered, ReferenceError> {
-        check(self, view, objects, options)?;
+    /// Renders what the view demands, on the threads of the current rayon pool. The demand's quality does not matter
+    /// here.
+    pub fn render(&self, view: &ViewDemand, options: &Options) -> Result<Rendered, ReferenceError> {
+        check(self, view, options)?;
         let (mut images, mut estimates) = (Vec::new(), Vec::new());
         for output in &view.outputs {
             let (pixels, estimate) = match output.output {
@@ -39,7 +33,7 @@ impl Tracer {
                     let bytes = estimate.linear.iter().flat_map(|light| light.map(color::byte)).collect();
                     (Pixels::Rgb8(bytes), Some(estimate))
                 }
-                _ => (self.labels(view, output, objects), None),
+                _ => (self.labels(view, output), None),
             };
             images.push(Image { pass: output.pass.clone(), pixels });
             estimates.push(estimate);
@@ -100,8 +94,8 @@ impl Tracer {
     }
 
     /// Labels or depth of what the rays through the pixel centres meet.
-    fn labels(&self, view: &ViewDemand, output: &OutputDemand, objects: &[ObjectSummary]) -> Pixels {
-        let object = |hit: &Hit| &objects[self.object(hit)];
+    fn labels(&self, view: &ViewDemand, output: &OutputDemand) -> Pixels {
+        let object = |hit: &Hit| &self.objects[self.object(hit)];
         let marked = |hit: &Hit| output.marked.as_ref().is_some_and(|marked| marked[self.object(hit)]);
         let byte = |label: &(dyn Fn(&Hit) -> u8 + Sync)| {
             Pixels::Gray8(self.at_centers(view, output, |hit| hit.map_or(0, |hit| label(&hit))))
@@ -137,12 +131,7 @@ impl Tracer {
     }
 }
 
-fn check(
-    tracer: &Tracer,
-    view: &ViewDemand,
-    objects: &[ObjectSummary],
-    options: &Options,
-) -> Result<(), ReferenceError> {
+fn check(tracer: &Tracer, view: &ViewDemand, options: &Options) -> Result<(), ReferenceError> {
     let (passes, side) = (options.passes, options.side);
     if passes < 2 || !(1..=256).contains(&side) {
         return Err(ReferenceError::BadSampling { passes, side });
@@ -154,7 +143,7 @@ fn check(
         return Err(ReferenceError::NotFiniteView(view.name.clone()));
     }
     let flags = view.outputs.iter().flat_map(|o| [Some(&o.selection.objects), o.marked.as_ref()]).flatten();
-    if objects.len() != tracer.objects || flags.into_iter().any(|flags| flags.len() != tracer.objects) {
+    if flags.into_iter().any(|flags| flags.len() != tracer.objects.len()) {
         return Err(ReferenceError::WrongScene(view.name.clone()));
     }
     Ok(())

@@ -9,12 +9,11 @@ mod shadow;
 use super::{Estimate, Options, Rendered, Tracer};
 use crate::frame::Pixels;
 use crate::plan::demand::ViewDemand;
-use crate::plan::summarize;
 use crate::scene::Scene;
 
 fn render(scene: &Scene, view: &ViewDemand, options: &Options) -> Rendered {
     let tracer = Tracer::new(scene).expect("the scene is finite");
-    tracer.render(view, &summarize(scene), options).expect("the view is of this scene")
+    tracer.render(view, options).expect("the view is of this scene")
 }
 
 fn estimate(rendered: &Rendered) -> &Estimate {

@@ -7,6 +7,7 @@ use super::ReferenceError;
 use super::hierarchy::Hierarchy;
 use super::ray::{Crossing, Ray};
 use super::surface::{self, Face, Point, Surfaces};
+use crate::plan::summary::{ObjectSummary, summarize};
 use crate::scene::Scene;
 
 /// Faces whose distances differ by less than this share lie in one place: the uppermost layer is seen.
@@ -21,7 +22,8 @@ pub struct Tracer {
     /// Bound on the error of a point of a surface, metres: how near a face may be to the plane of the one a ray
     /// leaves before it counts as touching it.
     touching: f64,
-    pub(super) objects: usize,
+    /// Labels of the scene's objects.
+    pub(super) objects: Vec<ObjectSummary>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -39,7 +41,7 @@ impl Tracer {
         let (hierarchy, order) = Hierarchy::new(&triangles);
         let faces = order.iter().map(|&i| faces[i as usize]).collect();
         let extent = if triangles.is_empty() { 0.0 } else { hierarchy.extent([0.0; 3]) };
-        let (surfaces, objects) = (Surfaces::new(scene), scene.objects.len());
+        let (surfaces, objects) = (Surfaces::new(scene), summarize(scene));
         Ok(Tracer { hierarchy, faces, surfaces, origin, touching: 64.0 * f64::EPSILON * extent, objects })
     }
 

@@ -133,9 +133,8 @@ fn numbers_that_are_not_finite_are_refused() {
     let outputs = vec![demand(&scene, Output::Class, State::Before)];
     let mut demand = view(nadir(0.0, 0.0, 1.0, 4, 4), sun(45.0, 90.0), outputs);
     let tracer = Tracer::new(&scene).expect("finite");
-    let objects = crate::plan::summarize(&scene);
     demand.camera.position.x = f64::INFINITY;
-    let refused = tracer.render(&demand, &objects, &Options::default());
+    let refused = tracer.render(&demand, &Options::default());
     assert!(matches!(refused, Err(ReferenceError::NotFiniteView(_))), "{refused:?}");
     scene.objects[1].mesh.positions[2].y = f64::NAN;
     let refused = Tracer::new(&scene).err();
@@ -149,9 +148,9 @@ fn demands_of_another_scene_and_single_passes_are_refused() {
     let tracer = Tracer::new(&scene).expect("finite");
     let other = town::town(2);
     let demand = view(nadir(0.0, 0.0, 1.0, 4, 4), sun(45.0, 90.0), vec![demand(&other, Output::Mask, State::After)]);
-    let refused = tracer.render(&demand, &crate::plan::summarize(&scene), &Options::default());
+    let refused = tracer.render(&demand, &Options::default());
     assert!(matches!(refused, Err(ReferenceError::WrongScene(_))), "{refused:?}");
-    let refused = tracer.render(&demand, &[], &Options { passes: 1, ..Options::default() });
+    let refused = tracer.render(&demand, &Options { passes: 1, ..Options::default() });
     assert!(matches!(refused, Err(ReferenceError::BadSampling { passes: 1, .. })), "{refused:?}");
 }
 

@@ -99,11 +99,11 @@ fn sampling_stops_when_it_is_enough() {
     let told = RefCell::new(Vec::new());
     let tell =
         |progress: crate::reference::Progress| told.borrow_mut().push((progress.passes, progress.standard_error));
-    let options = Options { side: 3, passes: 500, enough: Some(0.004), told: &tell, ..Options::default() };
+    let options = Options { side: 3, passes: 500, enough: Some(0.001), told: &tell, ..Options::default() };
     let rendered = render(&scene, &view, &options);
     let (told, estimate) = (told.borrow(), estimate(&rendered));
     let passes = told.len() as u32;
     assert!((3..500).contains(&passes) && estimate.samples == passes * 9, "{passes} passes");
-    assert!(estimate.mean_standard_error <= 0.004 && told[0] == (1, None));
-    assert!(told[passes as usize - 2].1.is_some_and(|e| e > 0.004), "one pass less was not enough");
+    assert!(estimate.mean_standard_error <= 0.001 && told[0] == (1, None));
+    assert!(told[passes as usize - 2].1.is_some_and(|e| e > 0.001), "one pass less was not enough");
 }
