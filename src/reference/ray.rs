@@ -57,10 +57,10 @@ impl Ray {
     #[inline]
     pub fn enters(&self, corners: &[[f64; 3]; 2], near: f64, far: f64) -> Option<f64> {
         let (mut enter, mut leave) = (near, far);
-        for k in 0..3 {
-            let first = usize::from(self.inverse[k].is_sign_negative());
-            enter = ((corners[first][k] - self.from_near[k]) * self.inverse[k]).max(enter);
-            leave = ((corners[1 - first][k] - self.from_far[k]) * self.inverse[k]).min(leave);
+        for (k, inverse) in self.inverse.into_iter().enumerate() {
+            let first = usize::from(inverse.is_sign_negative());
+            enter = ((corners[first][k] - self.from_near[k]) * inverse).max(enter);
+            leave = ((corners[1 - first][k] - self.from_far[k]) * inverse).min(leave);
         }
         (enter <= leave * (1.0 + 4.0 * f64::EPSILON)).then_some(enter)
     }

@@ -160,10 +160,10 @@ struct Sum {
 impl Sum {
     fn add(&mut self, value: Rgb) {
         self.passes += 1;
-        for k in 0..3 {
-            let off = value[k] - self.mean[k];
+        for (k, value) in value.into_iter().enumerate() {
+            let off = value - self.mean[k];
             self.mean[k] += off / f64::from(self.passes);
-            self.squares[k] += off * (value[k] - self.mean[k]);
+            self.squares[k] += off * (value - self.mean[k]);
         }
     }
 

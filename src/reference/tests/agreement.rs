@@ -25,7 +25,7 @@ fn the_town_is_the_same_town() {
             let mut demand = view(camera, sun(elevation, 120.0), outputs);
             (demand.quality.supersample, demand.quality.shadow_map) = (4, 4096);
             let drawn = town::render(&mut renderer, &scene, demand.clone());
-            let traced = render(&scene, &demand, &Options { side: 4, passes: 4, ..Options::default() });
+            let traced = render(&scene, &demand, &Options { side: 4, passes: 2, ..Options::default() });
             let case = format!("{name}, {shadows:?} shadows at {elevation}°");
             if shadows == Shadows::Off {
                 compare_labels(&case, &drawn, &traced);
