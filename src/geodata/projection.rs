@@ -149,6 +149,8 @@ fn geographic_tangent(target: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    mod stages;
+
     use glam::DVec3;
     use proptest::prelude::*;
 

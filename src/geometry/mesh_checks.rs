@@ -13,9 +13,9 @@ use std::collections::BTreeMap;
 
 use glam::{DVec2, DVec3};
 
-use super::Mesh;
 use super::orientation::orientation;
 use super::triangulate::{dropped_axis, triangles, triangulate_face};
+use super::{Face, Mesh};
 
 /// A directed edge of a face: (from, to) vertex indices.
 pub type Edge = (u32, u32);
@@ -172,6 +172,19 @@ pub fn volume(mesh: &Mesh) -> f64 {
     let o = (lo + hi) / 2.0;
     let parts: Vec<f64> = triangles(mesh).map(|(_, [a, b, c])| (a - o).cross(b - o).dot(c - o)).collect();
     pairwise_sum(&parts) / 6.0
+}
+
+/// Volume between the faces and the middle of the bounds by the faces' planes, cubic metres: a third of area times distance
+/// each, without triangles. [`volume`] is the same where triangles fill their faces and faces are planar.
+pub fn volume_by_planes(mesh: &Mesh) -> f64 {
+    let Some((lo, hi)) = mesh.bounds() else { return 0.0 };
+    let o = (lo + hi) / 2.0;
+    let cone = |face: &Face| {
+        let count = face.outer.len().max(1) as f64;
+        let mean = face.outer.iter().map(|&c| mesh.positions[c as usize] - o).sum::<DVec3>() / count;
+        mean.dot(mesh.area_vector(face)) / 6.0
+    };
+    pairwise_sum(&mesh.faces.iter().map(cone).collect::<Vec<f64>>())
 }
 
 /// Sum of the face areas less holes, square metres.

@@ -15,17 +15,13 @@ pub fn gcd(a: u64, b: u64) -> u64 {
         return a | b;
     }
     let shift = (a | b).trailing_zeros();
-    let (mut a, mut b) = (a >> a.trailing_zeros(), b);
-    loop {
-        b >>= b.trailing_zeros();
-        if a > b {
-            std::mem::swap(&mut a, &mut b);
-        }
-        b -= a;
-        if b == 0 {
-            return a << shift;
-        }
+    let (mut a, mut b) = (a >> a.trailing_zeros(), b >> b.trailing_zeros());
+    while a != b {
+        let apart = a.abs_diff(b);
+        b = a.min(b);
+        a = apart >> apart.trailing_zeros();
     }
+    a << shift
 }
 
 /// Two's complement integer of 256 bits: `hi * 2^128 + lo`. The callers' bit budgets exclude overflow.

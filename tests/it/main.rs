@@ -9,6 +9,7 @@ mod hard_cases;
 mod manual;
 mod pipeline;
 mod projects;
+mod stage_cases;
 mod syncw;
 mod tidy;
 mod validation;

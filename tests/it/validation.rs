@@ -88,7 +88,7 @@ fn an_open_body_fails_validation_and_is_named() {
     );
     shop.write("r.render", "version 1\nscene town { seed 1 map \"town.osm\" rules \"hole.cga\" for building }\n");
     let run = shop.run(&["build", "r.render", "-o", "s.glb", "--validate"]).expect(1);
-    run.says(&["open edge", "0 ok, 0 repaired, 0 fell back, 0 skipped, 20 invalid", "invalid: open edge (4) (20)"]);
+    run.says(&["open edge", "0 ok, 0 repaired, 0 fell back, 53 skipped, 20 invalid", "invalid: open edge (4) (20)"]);
     let (features, closed, bad) = wrong(&shop, "s.validation.json");
     assert_eq!((features, closed, bad.len()), (20, 0, 20));
     assert!(bad[0].contains("\"open edge\":4"), "{}", bad[0]);

@@ -67,6 +67,21 @@ mod tests {
         assert!(lowest.metres(&DecodingResult::F32(vec![f32::MIN]), 0, 1).unwrap().is_nan());
     }
 
+    /// A stage case of `../shared/hard-cases/stages.json`: the header's value is void, all others are heights.
+    #[test]
+    fn dem_nodata_kinds() {
+        for nodata in [f64::NAN, -32768.0, -9999.0, 0.0, 3.4e38] {
+            let band = Band { nodata: Some(nodata), scale: 1.0, offset: 0.0 };
+            let values = DecodingResult::F32(vec![nodata as f32, 0.0, -430.0, 8848.0, -9999.0]);
+            let metres: Vec<f32> = (0..5).map(|cell| band.metres(&values, cell, 5).unwrap()).collect();
+            assert!(metres[0].is_nan(), "{nodata}");
+            let expected = [0.0_f32, -430.0, 8848.0, -9999.0];
+            for (got, height) in metres[1..].iter().zip(expected) {
+                assert!(if f64::from(height) == nodata { got.is_nan() } else { *got == height }, "{nodata}: {got}");
+            }
+        }
+    }
+
     #[test]
     fn metadata_of_the_first_band_counts() {
         let xml = "<GDALMetadata><Item name=\"SCALE\" sample=\"1\" role=\"scale\">9</Item>\n\

@@ -112,6 +112,15 @@ impl Raster {
         &mut self.heights
     }
 
+    /// Heights by cell in a reference system, north row first.
+    #[cfg(test)]
+    pub(crate) fn of_cells(crs: &str, crs_from_cell: glam::DAffine2, width: usize, heights: Vec<f32>) -> Self {
+        let crs = super::crs::Crs::parse(crs).expect("a known system");
+        let height = heights.len() / width;
+        let placement = Placement::new(crs, crs_from_cell, width, height).expect("a transform with an inverse");
+        Raster::new("cells", placement, heights)
+    }
+
     /// A copy of some of the cells.
     #[cfg(test)]
     pub(crate) fn cropped(&self, column: usize, row: usize, width: usize, height: usize) -> Self {

@@ -12,6 +12,7 @@ mod classify;
 mod coastline;
 mod duplicate;
 mod gather;
+mod inner_parts;
 mod multipolygon;
 #[cfg(test)]
 mod multipolygon_tests;

@@ -2,13 +2,15 @@
 //!
 //! A part belongs to the smallest outline that a point inside it lies in. An outline of which its parts cover at least
 //! 90 % is not drawn (<https://wiki.openstreetmap.org/wiki/Simple_3D_Buildings>: parts must cover it); of a less covered
-//! one the ground that its parts stand on is taken out. An outline whose parts all hang above the ground stays.
+//! one the ground that its parts stand on is taken out. An outline whose parts all hang above the ground stays. A part
+//! that another hides is not drawn.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use glam::DVec2;
 
+use super::inner_parts::hidden;
 use crate::geodata::feature::{Feature, FeatureClass, Outline};
 use crate::geodata::ledger::Outcome;
 use crate::geodata::tags::{OUTLINE_KEY, length, number};
@@ -43,12 +45,15 @@ pub fn resolve(footprints: &mut Vec<Footprint>) {
         for &part in parts {
             adopt(footprints, outline, part);
         }
+        for (inner, outer) in hidden(footprints, parts) {
+            footprints[inner].dropped = Some(format!("inside the building part {}", footprints[outer].feature.id));
+        }
         pieces.extend(carve(footprints, outline, parts));
     }
     footprints.extend(pieces);
 }
 
-fn area_of(footprint: &Footprint) -> Option<&Polygon> {
+pub(super) fn area_of(footprint: &Footprint) -> Option<&Polygon> {
     match &footprint.feature.outline {
         Outline::Area(polygon) => Some(polygon),
         Outline::Line(_) => None,

@@ -9,6 +9,7 @@ use glam::DVec2;
 
 use crate::geometry::Polygon;
 use crate::geometry::boolean::{BooleanError, union};
+use crate::geometry::repair::{Options, repair};
 
 /// How a ribbon ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,8 +25,11 @@ const MITRE_LIMIT: f64 = 2.0;
 const CAP_SEGMENTS: usize = 8;
 
 /// The ribbon of one line; a closed line has no ends and its caps do not matter. Empty for a line without length.
+/// Corners of pieces fall together but for rounding: repair makes one of each.
 pub fn ribbon(line: &[DVec2], width: f64, caps: [Cap; 2]) -> Result<Vec<Polygon>, BooleanError> {
-    union(&pieces(line, width, caps), &[])
+    let united = union(&pieces(line, width, caps), &[])?;
+    let clean = |p: Polygon| repair(&[vec![p.outer], p.holes].concat(), &Options::default()).polygons;
+    Ok(united.into_iter().flat_map(clean).collect())
 }
 
 /// The ribbon as overlapping convex polygons, counter-clockwise: for a caller that unites many ribbons at once.

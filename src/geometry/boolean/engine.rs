@@ -144,7 +144,7 @@ impl Keepsakes {
 const DUST_WIDTH: i64 = 2;
 
 /// A corner where a ring of more than three turns back along the edge it came by, but for rounding.
-fn needle(ring: &GridRing) -> Option<usize> {
+pub fn needle(ring: &GridRing) -> Option<usize> {
     let n = ring.len();
     let turns_back = |&i: &usize| {
         let [a, b, c] = [n - 1, 0, 1].map(|k| ring[(i + k) % n]);

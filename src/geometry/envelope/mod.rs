@@ -244,9 +244,13 @@ impl Body {
     fn finish(self) -> Envelope {
         let mut out = Envelope { mesh: Mesh { positions: self.positions, faces: Vec::new() }, parts: Vec::new() };
         for (part, rings) in self.parts {
-            for face in merged(&out.mesh.positions, &rings) {
-                out.mesh.faces.push(face);
-                out.parts.push(part);
+            // All pieces of an edge lie in one plane, steps wherever two edges part.
+            let planes = if part == Part::Step { by_direction(&out.mesh.positions, rings) } else { vec![rings] };
+            for rings in planes {
+                for face in merged(&out.mesh.positions, &rings) {
+                    out.mesh.faces.push(face);
+                    out.parts.push(part);
+                }
             }
         }
         out
@@ -267,6 +271,25 @@ fn nested(rings: Vec<Ring>) -> Vec<Vec<Ring>> {
     out
 }
 
+/// Twice the area of a ring, along its normal.
+fn twice_area(positions: &[DVec3], ring: &[u32]) -> DVec3 {
+    let o = positions[ring[0] as usize];
+    ring.windows(2).map(|w| (positions[w[0] as usize] - o).cross(positions[w[1] as usize] - o)).sum()
+}
+
+/// Rings that look the same way, in order of their first.
+fn by_direction(positions: &[DVec3], rings: Vec<Vec<u32>>) -> Vec<Vec<Vec<u32>>> {
+    let mut groups: Vec<(DVec3, Vec<Vec<u32>>)> = Vec::new();
+    for ring in rings {
+        let normal = twice_area(positions, &ring).normalize_or_zero();
+        match groups.iter_mut().find(|(own, _)| own.distance(normal) < SAME) {
+            Some((_, group)) => group.push(ring),
+            None => groups.push((normal, vec![ring])),
+        }
+    }
+    groups.into_iter().map(|(_, group)| group).collect()
+}
+
 /// Joins rings in one plane along the edges they run both ways. Each face starts with the first edge that is left.
 fn merged(positions: &[DVec3], rings: &[Vec<u32>]) -> Vec<Face> {
     let edges_of = |ring: &Vec<u32>| -> Vec<(u32, u32)> {
@@ -281,10 +304,7 @@ fn merged(positions: &[DVec3], rings: &[Vec<u32>]) -> Vec<Face> {
             None => left.push(edge),
         }
     }
-    let area = |ring: &[u32]| -> DVec3 {
-        let o = positions[ring[0] as usize];
-        ring.windows(2).map(|w| (positions[w[0] as usize] - o).cross(positions[w[1] as usize] - o)).sum()
-    };
+    let area = |ring: &[u32]| twice_area(positions, ring);
     let normal = rings.iter().map(|ring| area(ring)).sum::<DVec3>();
     let (mut outer, mut holes) = (Vec::new(), Vec::new());
     while let Some(ring) = trace(positions, &mut left, normal) {

@@ -7,6 +7,7 @@
 //! extent), and results follow to what that step does to them (`../shared/numerics.md` sections 3 and 11): shapes with a margin
 //! keep their topology, all others their areas and volumes.
 
+mod laws;
 mod regions;
 mod roofs;
 mod skeletons;
@@ -82,7 +83,7 @@ impl Motion {
     fn space(&self) -> DAffine3 {
         let lift = |d: DVec2| DVec3::new(d.x, 0.0, -d.y) * self.scale;
         let matrix = DMat3::from_cols(lift(self.x_axis), DVec3::Y * self.scale, -lift(self.y_axis));
-        DAffine3 { matrix3: matrix, translation: DVec3::new(self.shift.x, 0.0, -self.shift.y).into() }
+        DAffine3 { matrix3: matrix, translation: DVec3::new(self.shift.x, 0.0, -self.shift.y) }
     }
 
     fn mesh(&self, mesh: &Mesh) -> Mesh {

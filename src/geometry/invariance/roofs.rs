@@ -44,10 +44,13 @@ const ROOFS: usize = 17 + RoofShape::ALL.len();
 /// Of these the roofs with `even`.
 const LEVELLED: [usize; 2] = [2, 5];
 
-fn is_gabled(number: usize) -> bool {
+/// Gables, and roofs that are cut at heights: their faces have more corners than the planes of a hip roof.
+fn needs_margin(number: usize) -> bool {
     use RoofShape as R;
-    let shape = |n: usize| matches!(RoofShape::ALL[n - 17], R::Gabled | R::HalfHipped | R::Gambrel | R::Round);
-    matches!(number, 3..=6 | 13 | 15) || (number >= 17 && shape(number))
+    let shape = |n: usize| {
+        matches!(RoofShape::ALL[n - 17], R::Gabled | R::HalfHipped | R::Gambrel | R::Round | R::Mansard | R::Dome)
+    };
+    matches!(number, 3..=6 | 12..=15) || (number >= 17 && shape(number))
 }
 
 /// What a roof is asked for beside its shape.
@@ -103,9 +106,13 @@ fn is_undecided(number: usize, p: &Polygon, choice: &Choice, motion: &Motion) ->
             let along = |i: usize| edge(i).normalize().dot(d).abs();
             let turn = |i: usize| along(i).min((1.0 - along(i).powi(2)).max(0.0).sqrt());
             let crosses = |j: usize| edge(i).normalize().perp_dot(edge(j).normalize()).abs() > 1e-9;
-            (0..i).any(|j| (turn(i) - turn(j)).abs() < 1e-6 && crosses(j))
+            (0..i).any(|j| (turn(i) - turn(j)).abs() < 1e-6 && (n > 4 || crosses(j)))
         }),
-        Facing::Along | Facing::Across => lengths_tie,
+        // Of more than four edges two that are parallel may both end the ridge.
+        Facing::Along | Facing::Across => {
+            let parallel = |i: usize, j: usize| edge(i).normalize().perp_dot(edge(j).normalize()).abs() < 1e-9;
+            lengths_tie || (n > 4 && (0..n).any(|i| (0..i).any(|j| parallel(i, j))))
+        }
     };
     // A rectangle and its first edge look the same in a mirror; a saltbox does not.
     let is_saltbox = number >= 17 && RoofShape::ALL[number - 17] == RoofShape::Saltbox;
@@ -153,11 +160,12 @@ proptest! {
 
     /// At arbitrary angles: the same roof by volume and surface. Not where a step of the grid decides: ridges levelled at the
     /// mean of their ends (rounding makes two ends of one), and gables beside walls on one line (rounding makes two
-    /// lines of them, the step between them runs over the roof and cuts a corner off the triangle that stands up).
+    /// lines of them, the step between them runs over the roof and cuts a corner off the triangle that stands up), and
+    /// bent roofs beside them (far out the step folds faces, which the triangulation then leaves out).
     #[test]
     fn roofs_of_houses_keep_their_measures(p in houses(), choice in choices(), motion in any_motion(), number in 0..ROOFS) {
         prop_assume!(!is_undecided(number, &p, &choice, &motion) && !LEVELLED.contains(&number));
-        prop_assume!(!is_gabled(number) || has_margin(&p, &skeleton(&p, None).expect("a skeleton")));
+        prop_assume!(!needs_margin(number) || has_margin(&p, &skeleton(&p, None).expect("a skeleton")));
         let moved = build(number, &motion.polygon(&p), &choice.moved(&p, &motion));
         let (roof, moved) = match (build(number, &p, &choice), moved) {
             (Ok(Some(roof)), Ok(Some(moved))) => (roof.mesh, moved.mesh),

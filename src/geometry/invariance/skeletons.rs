@@ -147,6 +147,24 @@ proptest! {
     }
 }
 
+/// Nor does the order of the holes.
+#[test]
+fn the_order_of_holes_does_not_matter() {
+    let square = |x: f64, y: f64, side: f64| {
+        [(x, y), (x, y + side), (x + side, y + side), (x + side, y)].map(DVec2::from).to_vec()
+    };
+    let mut outer = square(0.0, 0.0, 40.0);
+    outer.reverse();
+    let holes = vec![square(5.0, 5.0, 7.0), square(20.0, 8.0, 6.5), square(9.0, 25.0, 8.0), square(25.0, 22.0, 9.0)];
+    let one = skeleton(&Polygon { outer: outer.clone(), holes: holes.clone() }, None).expect("one");
+    for turn in 1..4 {
+        let mut turned = holes.clone();
+        turned.rotate_left(turn);
+        let two = skeleton(&Polygon { outer: outer.clone(), holes: turned }, None).expect("two");
+        assert_eq!(difference(&lifted(&one), &lifted(&two), 4e-8), None);
+    }
+}
+
 #[test]
 fn edges_keep_their_numbers_under_a_mirror() {
     let square = Polygon { outer: vec![DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y], holes: Vec::new() };

@@ -8,7 +8,7 @@ use super::*;
 use crate::geometry::cut::{Piece, cut, slice};
 use crate::geometry::envelope::{Envelope, Limit, envelope};
 use crate::geometry::extrude::{Direction, extrude};
-use crate::geometry::mesh_checks::{is_closed, surface_area, volume};
+use crate::geometry::mesh_checks::{is_closed, non_planar_faces, surface_area, volume};
 use crate::geometry::plane::Plane;
 use crate::geometry::simplify::simplify;
 use crate::geometry::solid::{OpenMeshes, Operator, combine};
@@ -118,6 +118,7 @@ proptest! {
         prop_assert_eq!(own.as_ref().err(), moved.as_ref().err());
         let (Ok(Envelope { mesh: own, .. }), Ok(Envelope { mesh: moved, .. })) = (own, moved) else { return Ok(()) };
         prop_assert_eq!(own.faces.len(), moved.faces.len());
+        prop_assert_eq!(non_planar_faces(&own, 1e-6), Vec::new());
         let (va, vb) = (volume(&own) * motion.scale.powi(3), volume(&moved));
         let tolerance = allowed(1e-8, extent(&p), &motion) * surface_area(&own) * motion.scale.powi(2);
         prop_assert!((va - vb).abs() <= tolerance, "{va} {vb}");

@@ -89,7 +89,7 @@ pub fn bodies(mesh: &Mesh) -> Bodies {
 /// Whether some faces look up, some down, and some sideways: then they are meant to enclose something.
 fn has_inside(part: &Mesh) -> bool {
     let ups: Vec<f64> = part.faces.iter().map(|f| part.normal(f).y).collect();
-    ups.iter().any(|&y| y > 0.1) && ups.iter().any(|&y| y < -0.1) && ups.iter().any(|&y| y.abs() <= 0.1)
+    ups.iter().any(|&y| y > LEVEL) && ups.iter().any(|&y| y < -LEVEL) && ups.iter().any(|&y| y.abs() <= UPRIGHT)
 }
 
 /// A piece of an edge between two corners, with none between them.
@@ -229,8 +229,11 @@ impl Seams {
     }
 }
 
-/// Least cosine between a wall and the normal of the face that it stands on.
+/// Least cosine between a wall and the normal of the face that it stands on; greatest one of a wall and the vertical.
 const UPRIGHT: f64 = 0.1;
+
+/// Least cosine of a face that looks up and the vertical: spires are steep.
+const LEVEL: f64 = 1e-3;
 
 /// By vertex the first vertex within `tolerance` of it.
 fn places(mesh: &Mesh, tolerance: f64) -> Vec<u32> {
@@ -345,6 +348,22 @@ mod tests {
         // The floor that is missing, but facing up.
         let up = mesh(&[&[[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [2.0, 0.0, -1.0], [0.0, 0.0, -1.0]]]);
         assert_eq!(on(up), BTreeMap::from([(Defect::FlippedFace, 5)]));
+    }
+
+    #[test]
+    fn a_needle_of_a_spire_encloses_something() {
+        let tip = [1.0, 40.0, -0.5];
+        let mut spire = block(TOP);
+        spire.faces.pop();
+        let slopes: Vec<Vec<[f64; 3]>> = (0..4).map(|i| vec![TOP[i], TOP[(i + 1) % 4], tip]).collect();
+        let first = spire.positions.len() as u32;
+        for (number, slope) in slopes.iter().enumerate() {
+            spire.positions.extend(slope.iter().map(|&p| DVec3::from(p)));
+            spire.faces.push(Face::new((first + 3 * number as u32..).take(3).collect::<Vec<u32>>()));
+        }
+        assert_eq!(found(&spire), (1, 0, vec![]));
+        spire.faces.pop();
+        assert!(bodies(&spire).defects.contains_key(&Defect::OpenEdge));
     }
 
     #[test]

@@ -15,10 +15,11 @@ pub enum Defect {
     NonPlanarFace,
     SelfIntersection,
     NegativeVolume,
+    VolumeAgainstAnalytic,
 }
 
 impl Defect {
-    pub const ALL: [Defect; 10] = [
+    pub const ALL: [Defect; 11] = [
         Defect::MissingVertex,
         Defect::NonFiniteVertex,
         Defect::OpenEdge,
@@ -29,6 +30,7 @@ impl Defect {
         Defect::NonPlanarFace,
         Defect::SelfIntersection,
         Defect::NegativeVolume,
+        Defect::VolumeAgainstAnalytic,
     ];
 
     pub fn name(self) -> &'static str {
@@ -43,6 +45,7 @@ impl Defect {
             Defect::NonPlanarFace => "non-planar face",
             Defect::SelfIntersection => "self-intersection",
             Defect::NegativeVolume => "negative volume",
+            Defect::VolumeAgainstAnalytic => "volume against analytic",
         }
     }
 }
@@ -73,6 +76,9 @@ pub fn defects(mesh: &Mesh, ignored: &[Defect]) -> Vec<(Defect, usize)> {
         Defect::NonPlanarFace => non_planar_faces(mesh, tolerance).len(),
         Defect::SelfIntersection => self_intersections(mesh, tolerance).len(),
         Defect::NegativeVolume => usize::from(volume(mesh) < -tolerance * surface_area(mesh)),
+        Defect::VolumeAgainstAnalytic => {
+            usize::from((volume(mesh) - volume_by_planes(mesh)).abs() > tolerance * surface_area(mesh))
+        }
     };
     let wanted = Defect::ALL.into_iter().filter(|d| !ignored.contains(d));
     wanted.map(|d| (d, count(d))).filter(|(_, n)| *n > 0).collect()

@@ -1,5 +1,7 @@
 //! Pairs: a cube passes every check; break one thing, and exactly that defect is found.
 
+use proptest::prelude::*;
+
 use super::*;
 use crate::geometry::Face;
 use crate::geometry::extrude::{Direction, extrude};
@@ -138,7 +140,34 @@ fn defects_have_names_and_counts() {
     let mut inside_out = cube();
     inside_out.faces.iter_mut().for_each(flip_face);
     assert_eq!(defects(&inside_out, &[]), [(Defect::NegativeVolume, 1)]);
+    let mut bent = cube();
+    let corner = bent.faces[0].outer[0] as usize;
+    bent.positions[corner] += DVec3::new(0.3, 0.5, 0.2);
+    let found: Vec<Defect> = defects(&bent, &[]).into_iter().map(|(defect, _)| defect).collect();
+    assert_eq!(found, [Defect::NonPlanarFace, Defect::VolumeAgainstAnalytic]);
     let mut names: Vec<&str> = Defect::ALL.iter().map(|d| d.name()).collect();
     names.dedup();
     assert_eq!(names.len(), Defect::ALL.len());
+}
+
+proptest! {
+    /// Without triangles and with them: prisms over stars.
+    #[test]
+    fn volumes_by_planes_and_by_triangles_agree(radii in prop::collection::vec(0.5f64..10.0, 3..40), height in 0.1f64..30.0) {
+        let n = radii.len();
+        let at = |k: usize, y: f64| {
+            let (sin, cos) = libm::sincos(std::f64::consts::TAU * k as f64 / n as f64);
+            DVec3::new(radii[k] * cos, y, -radii[k] * sin)
+        };
+        let positions: Vec<DVec3> = (0..2 * n).map(|k| at(k % n, if k < n { 0.0 } else { height })).collect();
+        let corner = |k: usize| (k % n) as u32;
+        let side = |k: usize| Face::new(vec![corner(k), corner(k + 1), n as u32 + corner(k + 1), n as u32 + corner(k)]);
+        let mut faces: Vec<Face> = (0..n).map(side).collect();
+        faces.push(Face::new((0..n as u32).rev().collect::<Vec<_>>()));
+        faces.push(Face::new((n as u32..2 * n as u32).collect::<Vec<_>>()));
+        let mesh = Mesh { positions, faces };
+        let plan: f64 = (0..n).map(|k| radii[k] * radii[(k + 1) % n] / 2.0).sum::<f64>() * libm::sin(std::f64::consts::TAU / n as f64);
+        prop_assert!((volume_by_planes(&mesh) - plan * height).abs() < 1e-9 * (1.0 + plan * height));
+        prop_assert!((volume(&mesh) - plan * height).abs() < 1e-9 * (1.0 + plan * height));
+    }
 }

@@ -126,8 +126,10 @@ fn clean(rings: &[Ring], options: &Options, notes: &mut Vec<Note>) -> Result<Vec
     for ring in rings {
         let mut welded = ring.clone();
         doubled += remove_doubled(&mut welded, |p, q| p.distance_squared(q) < options.weld * options.weld);
-        let mut snapped = snap(&welded, &grid)?;
-        doubled += remove_doubled(&mut snapped, |p, q| p == q);
+        let (mut snapped, clipped) = snap(&welded, &grid)?;
+        let equal = remove_doubled(&mut snapped, |p, q| p == q);
+        // The corners of the box that a hole is clipped to are nobody's points.
+        doubled += if clipped { 0 } else { equal };
         on_grid.push(snapped);
     }
     note(notes, doubled, Note::DoubledPointsRemoved);
@@ -149,7 +151,8 @@ fn clean(rings: &[Ring], options: &Options, notes: &mut Vec<Note>) -> Result<Vec
 
     // 4. Fast path: already simple, disjoint and nested. 5. Slow path: fill, unite, subtract.
     let plain = to_plan(&[vec![outline.clone()], holes.clone()].concat(), &grid);
-    let polygons = if is_strictly_valid(&plain) {
+    let has_needle = std::iter::once(&outline).chain(&holes).any(|r| engine::needle(r).is_some());
+    let polygons = if is_strictly_valid(&plain) && !has_needle {
         vec![plain]
     } else {
         notes.push(Note::CrossingsResolved);
@@ -185,8 +188,8 @@ fn grid_over(rings: &[Ring]) -> Result<Grid, Rejection> {
     Grid::over(lo, hi).ok_or(Rejection::TooFewPoints)
 }
 
-/// Rounds a ring to the grid, clipped first to a box that holds the outline and fits the engine.
-fn snap(ring: &Ring, grid: &Grid) -> Result<GridRing, Rejection> {
+/// Rounds a ring to the grid, clipped first to a box that holds the outline and fits the engine; whether it was clipped.
+fn snap(ring: &Ring, grid: &Grid) -> Result<(GridRing, bool), Rejection> {
     let limit = GRID_LIMIT as f64 * 1.5;
     let steps: Ring = ring.iter().map(|&p| (p - grid.origin) / grid.step).collect();
     if steps.iter().any(|p| !p.is_finite()) {
@@ -194,7 +197,7 @@ fn snap(ring: &Ring, grid: &Grid) -> Result<GridRing, Rejection> {
     }
     let inside = steps.iter().all(|p| p.abs().max_element() <= limit);
     let clipped = if inside { steps } else { clip_to_box(steps, limit) };
-    Ok(clipped.iter().map(|p| p.round()).map(|p| [p.x as i64, p.y as i64]).collect())
+    Ok((clipped.iter().map(|p| p.round()).map(|p| [p.x as i64, p.y as i64]).collect(), !inside))
 }
 
 /// Clips a ring to the box of half width `limit` about 0 (Sutherland and Hodgman 1974); winding numbers inside stay.

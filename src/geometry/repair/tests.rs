@@ -112,6 +112,21 @@ fn a_spike_leaves_no_point_in_the_wall_but_breaks_stay() {
     assert_eq!(got.polygons[0].outer, ring(&[(0.0, 0.0), (4.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0)]));
 }
 
+/// relation/2360164 of Munich: an outline that goes out and back along a line that its own corner lies on, but for a few
+/// grid steps, kept a fin of no width.
+#[test]
+fn a_spike_that_rounding_keeps_open_goes_too() {
+    let (start, tip, side) = (DVec2::new(8.0, 4.0), DVec2::new(11.0, 10.0), DVec2::new(-2.0, 1.0));
+    for steps in -6..=6 {
+        let base = start.lerp(tip, 0.3) + side * f64::from(steps) * 1e-9;
+        let outline = vec![DVec2::ZERO, start, tip, base, DVec2::new(1.0, 7.0)];
+        let got = repair(&[outline], &Options::default());
+        assert_eq!(got.polygons.len(), 1, "{steps}");
+        let outer = &got.polygons[0].outer;
+        assert!(outer.len() == 4 && !outer.contains(&tip), "{steps}: {outer:?}");
+    }
+}
+
 #[test]
 fn small_parts_are_dropped_and_the_reason_is_given() {
     let bow = ring(&[(0.0, 0.0), (10.05, 10.05), (10.05, 10.0), (0.05, 0.0)]);

@@ -270,19 +270,60 @@ fn cover_pediment(plan: &mut PlanRoof, edges: &Edges, edge: usize, tip: u32, str
     }
 }
 
-/// Replace the tip of every pediment by a plane that starts at `fraction` of its height.
+/// Share of a ridge that half hips leave at least.
+const RIDGE_LEFT: f64 = 0.1;
+
+/// A pediment that gets a half hip.
+struct End {
+    face: usize,
+    edge: usize,
+    corners: [u32; 2],
+    tip: u32,
+    /// Direction of the ridge inwards, and its rise per metre.
+    along: DVec2,
+    rise: f64,
+    /// Where the plane of the edge itself would meet the ridge, metres from the tip.
+    reach: f64,
+}
+
+fn ends(plan: &PlanRoof, edges: &Edges) -> Vec<End> {
+    let end = |(face, f): (usize, &PlanFace)| {
+        let (RoofPart::Side { edge }, &[start, stop, tip]) = (f.part, &f.ring[..]) else { return None };
+        let (along, rise) = ridge_over(edges, edge)?;
+        let reach = plan.node(tip).height / (along.dot(edges.normal(edge)) - rise);
+        Some(End { face, edge, corners: [start, stop], tip, along, rise, reach })
+    };
+    plan.faces.iter().enumerate().filter_map(end).collect()
+}
+
+/// How much of each pediment's tip is clipped: `most`, or what leaves some of the ridge.
+fn clipped(plan: &PlanRoof, ends: &[End], most: f64) -> Vec<f64> {
+    let share = |end: &End| {
+        let beside = plan.faces.iter().filter(|f| matches!(f.part, RoofPart::Top { .. }));
+        let neighbours = beside.filter_map(|f| {
+            let at = f.ring.iter().position(|&n| n == end.tip)?;
+            let n = f.ring.len();
+            [f.ring[(at + n - 1) % n], f.ring[(at + 1) % n]].into_iter().find(|n| !end.corners.contains(n))
+        });
+        let position = |n: u32| plan.node(n).position;
+        let room = |n: u32| {
+            let other = ends.iter().find(|e| e.tip == n).map_or(0.0, |e| e.reach);
+            position(end.tip).distance(position(n)) * (1.0 - RIDGE_LEFT) / (end.reach + other)
+        };
+        neighbours.map(room).fold(most, f64::min)
+    };
+    ends.iter().map(share).collect()
+}
+
+/// Replace the tip of every pediment by a plane that starts at `fraction` of its height, higher where the ridge is short.
 fn clip_gables(plan: &mut PlanRoof, polygon: &Polygon, fraction: f64) {
     let edges = Edges::of(polygon);
-    for f in 0..plan.faces.len() {
-        let (RoofPart::Side { edge }, &[start, end, tip]) = (plan.faces[f].part, &plan.faces[f].ring[..]) else {
-            continue;
-        };
-        let Some((along, rise)) = ridge_over(&edges, edge) else { continue };
+    let ends = ends(plan, &edges);
+    let shares = clipped(plan, &ends, 1.0 - fraction);
+    for (End { face: f, edge, corners: [start, stop], tip, along, rise, reach }, share) in ends.into_iter().zip(shares)
+    {
         let top = *plan.node(tip);
-        // Where the plane of the edge itself would meet the ridge.
-        let reach = top.height / (along.dot(edges.normal(edge)) - rise);
-        let shrunk =
-            |p: DVec2, h: f64| (top.position.lerp(p, 1.0 - fraction), top.height + (h - top.height) * (1.0 - fraction));
+        let shrunk = |p: DVec2, h: f64| (top.position.lerp(p, share), top.height + (h - top.height) * share);
         let mut add = |(position, height)| plan.add_node(position, height);
         let left = add(shrunk(edges.start(edge), 0.0));
         let right = add(shrunk(edges.end(edge), 0.0));
@@ -295,7 +336,7 @@ fn clip_gables(plan: &mut PlanRoof, polygon: &Polygon, fraction: f64) {
                 face.ring.splice(at..=at, both);
             }
         }
-        plan.faces[f].ring = if fraction > 0.0 { vec![start, end, right, left] } else { Vec::new() };
+        plan.faces[f].ring = if share < 1.0 { vec![start, stop, right, left] } else { Vec::new() };
         let ring = vec![left, right, inner];
         plan.faces.push(PlanFace { part: RoofPart::Top { edge: Some(edge) }, ring, holes: Vec::new() });
     }

@@ -13,9 +13,10 @@ use super::ridge::ridge;
 use super::saltbox::saltbox;
 use super::shed::{shed, skillion};
 use super::{Roof, RoofError, RoofWarning, Slope};
+use crate::geometry::grid::Grid;
 use crate::geometry::polygon::Polygon;
 use crate::geometry::rectangle::least_around;
-use crate::geometry::skeleton::skeleton;
+use crate::geometry::skeleton::{SkeletonError, skeleton};
 
 /// A value of `roof:shape`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -113,6 +114,12 @@ impl RoofShape {
     pub fn build(self, polygon: &Polygon, slope: Slope, facing: Facing) -> Result<Option<Roof>, RoofError> {
         if self == RoofShape::Flat || slope.tangent(1.0)? == 0.0 {
             return Ok(None);
+        }
+        if polygon.outer.len() < 3 {
+            return Err(SkeletonError::TooFewPoints.into());
+        }
+        if polygon.bounds().and_then(|(low, high)| Grid::over(low, high)).is_none() {
+            return Err(SkeletonError::NotFinite.into());
         }
         let bend = || Profile::bent(BEND);
         let barrel = || Profile::quarter_circle(BANDS);

@@ -7,7 +7,7 @@ use glam::DVec2;
 
 use super::hip::hip;
 use super::{Roof, RoofError, Slope};
-use crate::geometry::mesh_checks::{Defect, defects};
+use crate::geometry::mesh_checks::{Defect, defects, faces_not_triangulated};
 use crate::geometry::polygon::Polygon;
 use crate::geometry::rectangle::least_around;
 
@@ -62,16 +62,22 @@ pub fn sound(
     Ok(SoundRoof { roof: roof?, steps })
 }
 
-/// The defects of a roof in words; `None` without any, and for a level one: it has no inside.
+/// The defects of a roof in words; `None` without any, and for a level one: it has no inside. Triangles without area
+/// between the corners of a face are none as long as the face is covered: they show nowhere.
 fn faults(roof: &Roof, by_design: &[Defect]) -> Option<String> {
     if roof.mesh.bounds().is_some_and(|(low, high)| low.y == high.y) {
         return None;
     }
-    let found = defects(&roof.mesh, by_design);
+    let ignored: Vec<Defect> = by_design.iter().copied().chain([Defect::DegenerateTriangle]).collect();
+    let mut found: Vec<(&str, usize)> = defects(&roof.mesh, &ignored).iter().map(|(d, n)| (d.name(), *n)).collect();
+    let uncovered = faces_not_triangulated(&roof.mesh).len();
+    if uncovered > 0 && !by_design.contains(&Defect::DegenerateTriangle) {
+        found.push(("face not covered by its triangles", uncovered));
+    }
     let mut text = String::new();
-    for (defect, count) in &found {
+    for (name, count) in &found {
         let separator = if text.is_empty() { "" } else { ", " };
-        write!(text, "{separator}{} ({count})", defect.name()).expect("a string takes everything");
+        write!(text, "{separator}{name} ({count})").expect("a string takes everything");
     }
     (!found.is_empty()).then_some(text)
 }

@@ -510,3 +510,25 @@ fn a_front_that_goes_straight_on_has_no_pediment_at_its_end() {
     assert!(lowest.clone().count() > 0 && lowest.clone().all(|(f, _)| roof.mesh.area(f) > 0.1));
     assert_eq!(mesh_checks::defects(&roof.mesh, &[mesh_checks::Defect::OpenEdge]), []);
 }
+
+/// way/686911321 of Monaco, a church whose ridge runs across: half hips from both ends overlapped.
+#[test]
+fn half_hips_leave_some_of_a_short_ridge() {
+    let wide = rectangle(10.0, 24.0);
+    for (facing, fraction) in [(Facing::Across, 0.5), (Facing::Across, 0.2), (Facing::Along, 0.5)] {
+        let roof = RoofShape::HalfHipped.build(&wide, Slope::Height(3.0), facing).unwrap().expect("a roof");
+        assert_eq!(mesh_checks::defects(&roof.mesh, &[]), [], "{facing:?}");
+        assert!((size(&roof).y - 3.0).abs() < 1e-9);
+        let short = half_hipped(&rectangle(24.0, 10.0), Slope::Height(3.0), fraction).unwrap();
+        assert_eq!(mesh_checks::defects(&short.mesh, &[]), [], "{fraction}");
+    }
+}
+
+/// Found by `any_rings_are_answered`.
+#[test]
+fn an_outline_without_points_has_no_roof() {
+    for shape in RoofShape::ALL.into_iter().filter(|s| *s != RoofShape::Flat) {
+        let made = shape.build(&Polygon::default(), Slope::Angle(40.0), Facing::Natural);
+        assert_eq!(made, Err(RoofError::Skeleton(SkeletonError::TooFewPoints)), "{shape:?}");
+    }
+}

@@ -5,9 +5,10 @@
 //! again, so nothing is discarded for good.
 
 use std::cmp::Ordering;
-use std::collections::BinaryHeap;
 
+use super::heap::Heap;
 use super::line::{Moment, determinant, time_numerator};
+use super::slab::Slab;
 use super::splits::{ReflexList, Split};
 use super::wavefront::{LineId, VertexId, Wavefront};
 
@@ -26,35 +27,17 @@ pub(super) enum Kind {
     Split { vertex: VertexId, fragment: VertexId, stamp: u32 },
 }
 
-impl Ord for Event {
-    /// Reversed, so that the heap gives the earliest first.
-    fn cmp(&self, other: &Event) -> Ordering {
-        other.moment.compare(&self.moment)
-    }
-}
-
-impl PartialOrd for Event {
-    fn partial_cmp(&self, other: &Event) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl PartialEq for Event {
-    fn eq(&self, other: &Event) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
-}
-
-impl Eq for Event {}
-
 /// The queue of events and what it remembers of every vertex.
 #[derive(Debug)]
 pub(super) struct Events {
-    pub(super) heap: BinaryHeap<Event>,
+    pub(super) heap: Heap,
     /// When the fragment that starts in a vertex vanishes.
     pub(super) vanish: Vec<Option<Moment>>,
     pub(super) splits: Vec<Split>,
     pub(super) reflex: ReflexList,
+    /// Where to look for splits, and until when: for all time if `None`.
+    pub(super) slab: Slab,
+    pub(super) horizon: Option<Moment>,
     /// The present.
     pub(super) now: Moment,
     /// Counts the different moments so far; [`FIRST_STEP`] at the start.
@@ -67,10 +50,12 @@ pub(super) const FIRST_STEP: u32 = 1;
 impl Default for Events {
     fn default() -> Events {
         Events {
-            heap: BinaryHeap::new(),
+            heap: Heap::default(),
             vanish: Vec::new(),
             splits: Vec::new(),
             reflex: ReflexList::default(),
+            slab: Slab::default(),
+            horizon: None,
             now: Moment::START,
             step: FIRST_STEP,
         }
@@ -80,8 +65,17 @@ impl Default for Events {
 impl Events {
     /// The earliest event that still holds, if it is not later than `stop`; the present moves on to it.
     pub fn next(&mut self, wf: &Wavefront, stop: Option<&Moment>) -> Option<Event> {
-        loop {
-            let event = *self.heap.peek()?;
+        // All that is left in the queue belongs to the dead.
+        while !wf.active.is_empty() {
+            let event = self.heap.peek().copied();
+            if let Some(horizon) = self.horizon
+                && event.is_none_or(|event| event.moment.compare(&horizon) == Ordering::Greater)
+                && stop.is_none_or(|stop| stop.compare(&horizon) == Ordering::Greater)
+            {
+                self.widen(wf, horizon.tau);
+                continue;
+            }
+            let event = event?;
             if stop.is_some_and(|stop| event.moment.compare(stop) == Ordering::Greater) {
                 return None;
             }
@@ -106,6 +100,12 @@ impl Events {
             self.advance(event.moment);
             return Some(event);
         }
+        None
+    }
+
+    /// What the slab rules out.
+    pub fn slab(&self) -> Option<&Slab> {
+        self.horizon.map(|_| &self.slab)
     }
 
     fn advance(&mut self, moment: Moment) {
@@ -151,12 +151,8 @@ impl Events {
         for s in 0..wf.vertices.len() {
             self.schedule_edge(wf, s as VertexId);
         }
-        self.reflex.follow(wf);
-        for v in 0..wf.vertices.len() {
-            if wf.vertices[v].turn < 0 {
-                self.search(wf, v as VertexId);
-            }
-        }
+        self.reflex.follow(wf, true);
+        self.widen(wf, 0.0);
     }
 
     /// Find out when the fragment that starts in `s` vanishes: if D [p,e] [e,q] > 0, at T / D.

@@ -38,9 +38,29 @@ impl FaceBuilder {
         line
     }
 
+    /// Let every line point to the one that stands for it.
+    pub fn flatten(&mut self) {
+        for line in 0..self.parent.len() {
+            self.parent[line] = self.parent[self.parent[line] as usize];
+        }
+    }
+
+    /// [`FaceBuilder::root`], which shortens the way for the next time.
+    fn root_mut(&mut self, mut line: LineId) -> LineId {
+        while let Some(&parent) = self.parent.get(line as usize) {
+            if parent == line {
+                break;
+            }
+            let above = self.parent[parent as usize];
+            self.parent[line as usize] = above;
+            line = above;
+        }
+        line
+    }
+
     /// Let two edges share a face; remembers where they met if they did not share one yet.
     pub fn unite(&mut self, union: Union) {
-        let (left, right) = (self.root(union.left), self.root(union.right));
+        let (left, right) = (self.root_mut(union.left), self.root_mut(union.right));
         if left == right {
             return;
         }
@@ -78,6 +98,8 @@ const END: u32 = u32::MAX;
 pub(super) struct Chainer {
     /// Where the pieces of a face begin, by the line that stands for it.
     begins: Vec<u32>,
+    /// The pieces as they come, with the line of their face.
+    pieces: Vec<(LineId, HalfArc)>,
     halves: Vec<HalfArc>,
     head: Vec<u32>,
     next: Vec<u32>,
@@ -106,26 +128,32 @@ impl Chainer {
     fn sort(&mut self, wf: &Wavefront, weld: &[NodeId], tops: &[(LineId, NodeId, NodeId)]) {
         self.begins.clear();
         self.begins.resize(wf.lines.len() + 2, 0);
-        let pieces = || {
-            let arcs = wf.arcs.iter().flat_map(|&Arc { from, to, l, r }| [(l, from, to), (r, to, from)]);
-            let all = wf.eaves.iter().chain(tops).copied().chain(arcs);
-            all.map(|(line, from, to)| (line, weld[from as usize], weld[to as usize]))
-                .filter(|(_, from, to)| from != to)
+        self.pieces.clear();
+        let mut enter = |line: LineId, from: NodeId, to: NodeId| {
+            let half = HalfArc { from: weld[from as usize], to: weld[to as usize] };
+            if half.from != half.to {
+                let root = wf.faces.root(line);
+                self.begins[root as usize + 2] += 1;
+                self.pieces.push((root, half));
+            }
         };
-        let mut count = 0;
-        for (line, ..) in pieces() {
-            self.begins[wf.faces.root(line) as usize + 2] += 1;
-            count += 1;
+        for &(line, from, to) in wf.eaves.iter().chain(tops) {
+            enter(line, from, to);
+        }
+        for &Arc { from, to, l, r } in &wf.arcs {
+            enter(l, from, to);
+            enter(r, to, from);
         }
         for k in 2..self.begins.len() {
             self.begins[k] += self.begins[k - 1];
         }
         // Entering the pieces moves the beginning of each face to that of the next.
+        let count = self.pieces.len();
         self.halves.clear();
         self.halves.resize(count, HalfArc { from: 0, to: 0 });
-        for (line, from, to) in pieces() {
-            let place = &mut self.begins[wf.faces.root(line) as usize + 1];
-            self.halves[*place as usize] = HalfArc { from, to };
+        for &(root, half) in &self.pieces {
+            let place = &mut self.begins[root as usize + 1];
+            self.halves[*place as usize] = half;
             *place += 1;
         }
         self.head.clear();
@@ -180,15 +208,19 @@ impl Chainer {
     }
 }
 
-/// Nodes closer than this many grid steps are one.
+/// Nodes closer than this many grid steps are one, where that folds no face.
 pub(super) const WELD_STEPS: f64 = 8.0;
+
+/// What f64 rounds exact places by, and some, in grid steps: nodes that close are one in any case.
+pub(super) const ROUNDING_STEPS: f64 = 1e-4;
 
 /// In a unit of τ a line of weight 1 moves 2^32 grid steps.
 pub(super) const STEPS_PER_TAU: f64 = 4_294_967_296.0;
 
-/// Into `parent`, for every node the node that stands for it: ends of short arcs are united, inner nodes with each other or with one
-/// input node, never two input nodes.
-pub(super) fn weld_nodes(wf: &Wavefront, parent: &mut Vec<NodeId>) {
+/// Into `parent`, for every node the node that stands for it: ends of arcs shorter than `steps` are united, inner nodes
+/// with each other or with one input node, never two input nodes. Whether places moved by more than rounding.
+pub(super) fn weld_nodes(wf: &Wavefront, parent: &mut Vec<NodeId>, steps: f64) -> bool {
+    let mut moved = false;
     parent.clear();
     parent.extend(0..wf.nodes.len() as NodeId);
     let root = |parent: &[NodeId], mut n: NodeId| {
@@ -201,17 +233,20 @@ pub(super) fn weld_nodes(wf: &Wavefront, parent: &mut Vec<NodeId>) {
         let (p, q) = (root(parent, arc.from), root(parent, arc.to));
         let (low, high) = (p.min(q), p.max(q));
         let two_inputs = (high as usize) < wf.input_nodes;
-        if low != high && !two_inputs && near(&wf.nodes[low as usize], &wf.nodes[high as usize]) {
+        let (kept, other) = (&wf.nodes[low as usize], &wf.nodes[high as usize]);
+        if low != high && !two_inputs && near(kept, other, steps) {
             parent[high as usize] = low;
+            moved |= !near(kept, other, ROUNDING_STEPS);
         }
     }
     // The lower number stands for the higher one: one pass upwards.
     for n in 0..parent.len() {
         parent[n] = parent[parent[n] as usize];
     }
+    moved
 }
 
-pub(super) fn near(p: &GridNode, q: &GridNode) -> bool {
+pub(super) fn near(p: &GridNode, q: &GridNode, steps: f64) -> bool {
     let (dx, dy, dt) = (p.x - q.x, p.y - q.y, (p.tau - q.tau) * STEPS_PER_TAU);
-    dx * dx + dy * dy + dt * dt < WELD_STEPS * WELD_STEPS
+    dx * dx + dy * dy + dt * dt < steps * steps
 }

@@ -4,6 +4,7 @@
 
 use std::cmp::Ordering;
 
+use super::wavefront::FloatLine;
 use crate::geometry::predicates::{I256, gcd};
 
 /// The line of an edge, moving inwards (to the left of the edge) with speed w / |(a, b)| per unit of τ.
@@ -66,9 +67,15 @@ pub(super) struct Moment {
 impl Moment {
     pub const START: Moment = Moment { tau: 0.0, t: 0, d: 1 };
 
+    /// With τ to three units of its last place.
     pub fn new(t: i128, d: i128) -> Moment {
         let (t, d) = if d < 0 { (-t, -d) } else { (t, d) };
-        Moment { tau: t as f64 / d as f64, t, d }
+        Moment { tau: close(t) / close(d), t, d }
+    }
+
+    /// With τ to one unit of its last place.
+    fn rounded(self) -> Moment {
+        Moment { tau: self.t as f64 / self.d as f64, ..self }
     }
 
     /// Exact comparison; floats decide where they can.
@@ -79,6 +86,16 @@ impl Moment {
         }
         I256::product(self.t, other.d).minus(I256::product(other.t, self.d)).signum().cmp(&0)
     }
+}
+
+/// A float within two units of its last place, in fewer steps than one that is rounded to the nearest.
+fn close(v: i128) -> f64 {
+    const HALF: f64 = 18_446_744_073_709_551_616.0; // 2^64
+    let magnitude = v.unsigned_abs();
+    let (high, low) = ((magnitude >> 64) as u64, magnitude as u64);
+    // What is shifted out is below a unit of the last place, unless there is no upper half.
+    let float = if high == 0 { low as f64 } else { high as i64 as f64 * HALF + (low >> 11) as i64 as f64 * 2048.0 };
+    if v < 0 { -float } else { float }
 }
 
 /// D of three lines: 0 if they never meet in one point (or always).
@@ -110,7 +127,7 @@ impl Place {
         if d == 0 {
             return None;
         }
-        let moment = Moment::new(time_numerator(p, e, q), d);
+        let moment = Moment::new(time_numerator(p, e, q), d).rounded();
         let minor = |u: i64, v: i64, s: i64, t: i64| i128::from(u) * i128::from(v) - i128::from(s) * i128::from(t);
         let term = |c: &Line, minor: i128| I256::product(c.c.into(), minor);
         let x = term(p, minor(e.b, q.w, q.b, e.w)).minus(term(e, minor(p.b, q.w, q.b, p.w)));
@@ -143,18 +160,28 @@ impl Place {
     /// Exact side of the place as seen from `line` at the moment: 1 inside, 0 on it, -1 outside. Only for places made by
     /// [`Place::of`].
     pub fn side(&self, line: &Line) -> i32 {
-        match self.float_side(line.a as f64, line.b as f64, line.c as f64, line.w as f64) {
-            Some(side) => side,
-            None => self.exact_side(line),
+        let (side, doubt) = self.float_side(line.a as f64, line.b as f64, line.c as f64, line.w as f64);
+        if side.abs() <= doubt {
+            self.exact_side(line)
+        } else if side > 0.0 {
+            1
+        } else {
+            -1
         }
     }
 
-    /// The side by floats, unless in doubt.
-    pub fn float_side(&self, a: f64, b: f64, c: f64, w: f64) -> Option<i32> {
+    /// The side by floats, and the doubt about it.
+    #[inline]
+    fn float_side(&self, a: f64, b: f64, c: f64, w: f64) -> (f64, f64) {
         let (ax, by, wt) = (a * self.x, b * self.y, w * self.moment.tau);
-        let side = ax + by + c - wt;
-        let certain = side.abs() > DOUBT * (ax.abs() + by.abs() + c.abs() + wt.abs());
-        certain.then_some(if side > 0.0 { 1 } else { -1 })
+        (ax + by + c - wt, DOUBT * (ax.abs() + by.abs() + c.abs() + wt.abs()))
+    }
+
+    /// False if floats tell that the place is not on the line.
+    #[inline]
+    pub fn may_be_on(&self, line: &FloatLine) -> bool {
+        let (side, doubt) = self.float_side(line.a, line.b, line.c, line.w);
+        side.abs() <= doubt
     }
 
     /// The side by integers.
@@ -218,5 +245,9 @@ mod tests {
         assert_eq!(third.compare(&Moment::new(-5, -15)), Ordering::Equal);
         assert_eq!(third.compare(&close), Ordering::Less);
         assert_eq!(third.tau, close.tau);
+        for (t, d) in [(-1, 3), (1 << 70, (1 << 64) - 1), (-(1 << 120) - 12_345, (1 << 119) + 987), (0, 1 << 90)] {
+            let tau = t as f64 / d as f64;
+            assert!((Moment::new(t, d).tau - tau).abs() <= 7e-16 * tau.abs());
+        }
     }
 }

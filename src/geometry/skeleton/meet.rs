@@ -8,6 +8,7 @@ use std::cmp::Ordering;
 use super::SkeletonError;
 use super::faces::Union;
 use super::line::{Line, Place};
+use super::slab::Slab;
 use super::wavefront::{LineId, NodeId, VertexId, Wavefront};
 
 /// Neighbouring gathered vertices: the wavefront comes in along the fragment of `l` that starts in `from`, and goes out
@@ -38,6 +39,8 @@ pub(super) struct Meeting {
     call: u32,
     on_line: Vec<u32>,
     gathered: Vec<u32>,
+    /// Fragments that may be there.
+    asked: Vec<VertexId>,
     hits: Vec<VertexId>,
     dying: Vec<VertexId>,
     chains: Vec<Chain>,
@@ -63,20 +66,27 @@ impl Meeting {
         place: &Place,
         lines: [LineId; 3],
         step: u32,
+        slab: Option<&Slab>,
     ) -> Result<bool, SkeletonError> {
-        if !self.settle_once(wf, place, lines, None, step)? {
+        if !self.settle_once(wf, place, lines, None, step, slab)? {
             return Ok(false);
         }
         while let Some(ridge) = self.ridges.pop() {
             if wf.vertex(ridge).alive {
-                self.settle_ridge(wf, ridge, step)?;
+                self.settle_ridge(wf, ridge, step, slab)?;
             }
         }
         Ok(true)
     }
 
     /// The strip between opposite lines vanishes: go on where it ends (step 7).
-    fn settle_ridge(&mut self, wf: &mut Wavefront, ridge: VertexId, step: u32) -> Result<(), SkeletonError> {
+    fn settle_ridge(
+        &mut self,
+        wf: &mut Wavefront,
+        ridge: VertexId,
+        step: u32,
+        slab: Option<&Slab>,
+    ) -> Result<(), SkeletonError> {
         let vertex = *wf.vertex(ridge);
         let (before, after) = (*wf.vertex(vertex.prev), *wf.vertex(vertex.next));
         if vertex.prev == vertex.next {
@@ -97,7 +107,11 @@ impl Meeting {
             (Some(left), None) => (left, near),
             (None, None) => return Err(SkeletonError::Unresolved),
         };
-        if self.settle_once(wf, &place, lines, Some(ridge), step)? { Ok(()) } else { Err(SkeletonError::Unresolved) }
+        if self.settle_once(wf, &place, lines, Some(ridge), step, slab)? {
+            Ok(())
+        } else {
+            Err(SkeletonError::Unresolved)
+        }
     }
 
     /// Steps 1 to 6. `ridge` is the vertex between opposite lines that ends here, if that is the reason.
@@ -108,8 +122,12 @@ impl Meeting {
         lines: [LineId; 3],
         ridge: Option<VertexId>,
         step: u32,
+        slab: Option<&Slab>,
     ) -> Result<bool, SkeletonError> {
-        self.gather(wf, place, lines, ridge);
+        self.gather(wf, place, lines, slab);
+        if let Some(ridge) = ridge {
+            self.gather_ridge(wf, ridge);
+        }
         let vanishing = self.find_chains(wf, place);
         let alone = self.chains.len() == 1 && self.dying.len() <= 1;
         if vanishing == 0 && (self.chains.is_empty() || alone) {
@@ -123,8 +141,9 @@ impl Meeting {
         Ok(true)
     }
 
-    /// Step 1: mark the fragments whose line passes through the place, list the vertices that are there.
-    fn gather(&mut self, wf: &Wavefront, place: &Place, known: [LineId; 3], ridge: Option<VertexId>) {
+    /// Step 1: mark the fragments whose line passes through the place, list the vertices that are there. All have to be
+    /// asked but for what the slab rules out.
+    fn gather(&mut self, wf: &Wavefront, place: &Place, known: [LineId; 3], slab: Option<&Slab>) {
         self.call += 1;
         if self.on_line.len() < wf.vertices.len() {
             self.on_line.resize(wf.vertices.len(), 0);
@@ -132,14 +151,23 @@ impl Meeting {
         }
         self.hits.clear();
         self.dying.clear();
-        for (&s, f) in wf.active.iter().zip(&wf.carried) {
-            if place.float_side(f.a, f.b, f.c, f.w).is_some() {
-                continue;
+        if let Some(slab) = slab {
+            self.asked.clear();
+            self.asked.extend(slab.fragments_at([place.x, place.y]).chain(self.changed.iter().copied()));
+            self.asked.retain(|&s| wf.vertex(s).alive);
+            self.asked.sort_unstable();
+            self.asked.dedup();
+            for k in 0..self.asked.len() {
+                let s = self.asked[k];
+                if place.may_be_on(&wf.carried[wf.vertices[s as usize].slot as usize]) {
+                    self.ask(wf, place, known, s);
+                }
             }
-            let line = wf.vertices[s as usize].r;
-            if known.contains(&line) || place.exact_side(wf.line(line)) == 0 {
-                self.on_line[s as usize] = self.call;
-                self.hits.push(s);
+        } else {
+            for (&s, line) in wf.active.iter().zip(&wf.carried) {
+                if place.may_be_on(line) {
+                    self.ask(wf, place, known, s);
+                }
             }
         }
         for &s in &self.hits {
@@ -149,12 +177,23 @@ impl Meeting {
                 self.dying.push(s);
             }
         }
-        if let Some(ridge) = ridge {
-            let vertex = wf.vertex(ridge);
-            if self.is_gathered(vertex.prev) || self.is_gathered(vertex.next) {
-                self.gathered[ridge as usize] = self.call;
-                self.dying.push(ridge);
-            }
+    }
+
+    /// Whether the line of a fragment passes through the place.
+    fn ask(&mut self, wf: &Wavefront, place: &Place, known: [LineId; 3], s: VertexId) {
+        let line = wf.vertices[s as usize].r;
+        if known.contains(&line) || place.exact_side(wf.line(line)) == 0 {
+            self.on_line[s as usize] = self.call;
+            self.hits.push(s);
+        }
+    }
+
+    /// A vertex between opposite lines is there when a neighbour is.
+    fn gather_ridge(&mut self, wf: &Wavefront, ridge: VertexId) {
+        let vertex = wf.vertex(ridge);
+        if self.is_gathered(vertex.prev) || self.is_gathered(vertex.next) {
+            self.gathered[ridge as usize] = self.call;
+            self.dying.push(ridge);
         }
     }
 

@@ -3,13 +3,17 @@
 //! In: a repaired [`Polygon`] and, if wanted, one speed per edge. Out: nodes with the time at which the shrinking
 //! outline reaches them, and one face per edge. Time is distance from the eaves where the weight is 1.
 
+mod cells;
 mod events;
 mod faces;
+mod fold;
+mod heap;
 mod line;
 mod meet;
 mod path;
 mod quad;
 mod setup;
+mod slab;
 mod splits;
 mod unite;
 mod wavefront;
@@ -22,7 +26,7 @@ use std::cell::Cell;
 use glam::DVec2;
 
 use self::events::{Event, Events, Kind};
-use self::faces::{Chainer, FaceLoops, chain_faces, weld_nodes};
+use self::faces::{Chainer, FaceLoops, ROUNDING_STEPS, WELD_STEPS, chain_faces, weld_nodes};
 use self::line::{Moment, Place};
 use self::meet::Meeting;
 pub(crate) use self::setup::Options;
@@ -153,8 +157,13 @@ impl Workspace {
         let stop = time.map(|time| stop_moment(time, setup.metres_per_tau)).transpose()?;
         shrink(wf, &mut self.events, &mut self.meeting, stop.as_ref())?;
         let (mut tops, top_pieces) = stand_still(wf, stop)?;
-        weld_nodes(wf, weld);
+        let moved = weld_nodes(wf, weld, WELD_STEPS);
+        wf.faces.flatten();
         let mut faces = chain_faces(wf, weld, &top_pieces, chainer)?;
+        if moved && fold::any(wf, &faces) {
+            weld_nodes(wf, weld, ROUNDING_STEPS);
+            faces = chain_faces(wf, weld, &top_pieces, chainer)?;
+        }
         for node in tops.iter_mut().flatten() {
             *node = weld[*node as usize];
         }
@@ -190,7 +199,7 @@ fn shrink(
         let lines = events.lines(wf, &event);
         let [p, e, q] = lines.map(|id| wf.line(id));
         let place = Place::of(p, e, q).ok_or(SkeletonError::Unresolved)?;
-        if meeting.settle(wf, &place, lines, events.step)? {
+        if meeting.settle(wf, &place, lines, events.step, events.slab())? {
             meeting.changed.retain(|&v| wf.vertex(v).alive);
             meeting.changed.sort_unstable();
             meeting.changed.dedup();
@@ -273,7 +282,9 @@ fn finish(
     tops: Vec<Vec<NodeId>>,
 ) -> Skeleton {
     let mut nodes: Vec<Node> = Vec::with_capacity(wf.nodes.len());
-    nodes.extend(polygon.rings().flatten().map(|&position| Node { position, time: 0.0 }));
+    for ring in polygon.rings() {
+        nodes.extend(ring.iter().map(|&position| Node { position, time: 0.0 }));
+    }
     number.clear();
     number.resize(wf.nodes.len(), u32::MAX);
     for (k, n) in number.iter_mut().take(wf.input_nodes).enumerate() {

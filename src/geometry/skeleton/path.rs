@@ -1,11 +1,15 @@
 //! Float tests of a moving corner against moving lines. In: the two lines of a corner, other lines. Out: whether the corner
 //! certainly misses, certainly hits, or the integers have to tell.
 
+use super::cells::Spot;
 use super::line::Line;
 use super::wavefront::FloatLine;
 
 /// Relative bound for trusting a float: the terms below carry less than a quarter of it.
 const DOUBT: f64 = 4e-15;
+
+/// Grid steps by which places may be off that are not on any path.
+const SLACK: f64 = 8.0;
 
 /// Where a corner is at time τ: (x, y) + τ (dx, dy), in grid steps. Each number is exact but for three roundings.
 #[derive(Clone, Copy, Debug)]
@@ -46,6 +50,19 @@ impl Path {
         }
     }
 
+    /// Where the corner is at time τ.
+    pub fn spot(&self, tau: f64) -> Spot {
+        let (mx, my) = (tau * self.dx, tau * self.dy);
+        let size = self.x.abs() + self.y.abs() + mx.abs() + my.abs();
+        Spot { at: [self.x + mx, self.y + my], pad: SLACK + DOUBT * size }
+    }
+
+    /// Grid steps per unit of τ.
+    pub fn speed(&self) -> f64 {
+        (self.dx * self.dx + self.dy * self.dy).sqrt()
+    }
+
+    #[inline]
     fn approach(&self, f: &FloatLine) -> Approach {
         let (ax, by, au, bv) = (f.a * self.x, f.b * self.y, f.a * self.dx, f.b * self.dy);
         Approach {
@@ -57,6 +74,7 @@ impl Path {
     }
 
     /// False if the path certainly does not meet the line from its inner side between `now` and `latest`.
+    #[inline]
     pub fn may_meet(&self, f: &FloatLine, now: f64, latest: f64) -> bool {
         let Approach { gap, gap_doubt, speed, speed_doubt } = self.approach(f);
         let leaves = speed < -speed_doubt;

@@ -7,7 +7,7 @@
 use std::array::from_fn;
 use std::cmp::Ordering;
 
-use super::faces::{STEPS_PER_TAU, near};
+use super::faces::{STEPS_PER_TAU, WELD_STEPS, near};
 use super::line::{Line, Moment, Place, determinant, time_numerator};
 use super::wavefront::GridNode;
 use super::{Node, Skeleton, SkeletonFace};
@@ -29,7 +29,7 @@ pub(super) fn skeleton(polygon: &Polygon) -> Option<Skeleton> {
     let ends = [over(first)?, over(first + 2)?].map(|p| GridNode { x: p.x, y: p.y, tau: p.moment.tau });
     let corner = |i: usize| GridNode { x: points[i % 4][0] as f64, y: points[i % 4][1] as f64, tau: 0.0 };
     let arcs = (0..4).map(|i| (corner(first + i), ends[i / 2])).chain([(ends[0], ends[1])]);
-    if arcs.into_iter().any(|(p, q)| near(&p, &q)) {
+    if arcs.into_iter().any(|(p, q)| near(&p, &q, WELD_STEPS)) {
         return None;
     }
     let mut nodes = Vec::with_capacity(6);

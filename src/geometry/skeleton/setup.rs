@@ -49,7 +49,7 @@ pub(super) fn set_up(
 ) -> Result<Setup, SkeletonError> {
     let count = polygon.rings().map(Vec::len).sum();
     let fastest = check_weights(weights, count)?;
-    if polygon.rings().flatten().any(|p| !p.is_finite()) {
+    if polygon.rings().any(|ring| ring.iter().any(|p| !p.is_finite())) {
         return Err(SkeletonError::NotFinite);
     }
     if polygon.outer.len() < 3 {
@@ -58,6 +58,10 @@ pub(super) fn set_up(
     let (min, max) = polygon.bounds().ok_or(SkeletonError::TooFewPoints)?;
     if min == max {
         return Err(SkeletonError::TooFewPoints);
+    }
+    // Beyond the outline's box a hole would leave the grid.
+    if polygon.holes.iter().flatten().any(|p| p.cmplt(min).any() || p.cmpgt(max).any()) {
+        return Err(SkeletonError::NotSimple);
     }
     let grid = Grid::over(min, max).ok_or(SkeletonError::NotFinite)?;
     wavefront.clear();

@@ -44,24 +44,22 @@ impl ReflexList {
     }
 
     /// Take in the reflex vertices that were born, drop those that died.
-    pub fn follow(&mut self, wf: &mut Wavefront) {
+    pub fn follow(&mut self, wf: &mut Wavefront, keep_order: bool) {
         self.slots.resize(wf.vertices.len(), NONE);
         let mut gone = false;
         for &v in &wf.dead {
-            gone |= std::mem::replace(&mut self.slots[v as usize], NONE) != NONE;
+            let slot = std::mem::replace(&mut self.slots[v as usize], NONE);
+            gone |= slot != NONE;
+            if slot != NONE && !keep_order {
+                self.entries.swap_remove(slot as usize);
+                if let Some(moved) = self.entries.get(slot as usize) {
+                    self.slots[moved.vertex as usize] = slot;
+                }
+            }
         }
         wf.dead.clear();
-        if gone {
-            let slots = &mut self.slots;
-            let mut slot = 0;
-            self.entries.retain(|e| {
-                let stays = slots[e.vertex as usize] != NONE;
-                if stays {
-                    slots[e.vertex as usize] = slot;
-                    slot += 1;
-                }
-                stays
-            });
+        if gone && keep_order {
+            self.drop_dead();
         }
         for &v in &wf.reflex {
             let vertex = *wf.vertex(v);
@@ -72,6 +70,42 @@ impl ReflexList {
             }
         }
         wf.reflex.clear();
+    }
+}
+
+impl ReflexList {
+    fn drop_dead(&mut self) {
+        let slots = &mut self.slots;
+        let mut slot = 0;
+        self.entries.retain(|e| {
+            let stays = slots[e.vertex as usize] != NONE;
+            if stays {
+                slots[e.vertex as usize] = slot;
+                slot += 1;
+            }
+            stays
+        });
+    }
+
+    pub fn paths(&self) -> impl Iterator<Item = Path> {
+        self.entries.iter().map(|e| e.path)
+    }
+
+    /// Give the reflex vertices at the ends of `fragments` the number of this update.
+    fn mark_changed(&mut self, wf: &Wavefront, fragments: &[VertexId]) {
+        self.update += 1;
+        for &s in fragments {
+            for v in [s, wf.vertex(s).next] {
+                let slot = self.slots[v as usize];
+                if slot != NONE {
+                    self.entries[slot as usize].changed = self.update;
+                }
+            }
+        }
+    }
+
+    fn is_changed(&self, slot: u32) -> bool {
+        self.entries[slot as usize].changed == self.update
     }
 }
 
@@ -88,11 +122,25 @@ struct Search<'a> {
 
 impl Search<'_> {
     /// See whether the vertex runs into the fragment that starts in `s`, carried by `line`, earlier than into what it has.
+    #[inline]
     fn see(&mut self, s: VertexId, line: &FloatLine) {
-        let Reflex { path, latest, vertex: v, .. } = self.reflex;
-        if !path.may_meet(line, self.events.now.tau, latest) {
-            return;
+        if self.reflex.path.may_meet(line, self.events.now.tau, self.reflex.latest) {
+            self.consider(s, line);
         }
+    }
+
+    /// The same for a fragment that may be dead.
+    fn see_living(&mut self, s: VertexId) {
+        let vertex = self.wf.vertex(s);
+        if vertex.alive {
+            self.see(s, &self.wf.carried[vertex.slot as usize]);
+        }
+    }
+
+    /// The same for a fragment whose line it meets in time.
+    #[inline(never)]
+    fn consider(&mut self, s: VertexId, line: &FloatLine) {
+        let Reflex { path, vertex: v, .. } = self.reflex;
         let wf = self.wf;
         let (vertex, start) = (wf.vertex(v), wf.vertex(s));
         if s == v || start.next == v {
@@ -158,7 +206,7 @@ impl Search<'_> {
 }
 
 impl Events {
-    /// Find the earliest split of `v` among all fragments.
+    /// Find the earliest split of `v` among all fragments, up to the end of the slab.
     pub fn search(&mut self, wf: &Wavefront, v: VertexId) {
         let slot = self.reflex.slots[v as usize] as usize;
         self.splits[v as usize].moment = None;
@@ -166,42 +214,87 @@ impl Events {
         let best = self.bound(wf, v);
         let mut reflex = self.reflex.entries[slot];
         reflex.latest = best.map_or(f64::INFINITY, |m| m.tau);
+        let mut slab = std::mem::take(&mut self.slab);
+        if self.horizon.is_some() {
+            slab.cover_path(&reflex.path, self.now.tau, reflex.latest);
+            slab.enter_reflex(v);
+        }
         let mut search = Search { wf, events: self, reflex, best, asked: true, found: NONE };
-        for (&s, line) in wf.active.iter().zip(&wf.carried) {
-            search.see(s, line);
+        match self.horizon.and_then(|_| slab.fragments_near()) {
+            Some(near) => near.for_each(|s| search.see_living(s)),
+            None => wf.active.iter().zip(&wf.carried).for_each(|(&s, line)| search.see(s, line)),
         }
         let Search { reflex, best, found, .. } = search;
+        self.slab = slab;
         self.reflex.entries[slot] = reflex;
         self.note(reflex.vertex, found, best);
     }
 
     /// Offer changed fragments to every reflex vertex; search anew for those whose own fragments changed.
     pub fn offer(&mut self, wf: &mut Wavefront, fragments: &[VertexId]) {
-        self.reflex.follow(wf);
-        self.reflex.update += 1;
+        self.reflex.follow(wf, self.horizon.is_none());
+        self.reflex.mark_changed(wf, fragments);
+        if self.horizon.is_some() {
+            self.offer_near(wf, fragments);
+            return;
+        }
+        for slot in 0..self.reflex.entries.len() as u32 {
+            if self.reflex.is_changed(slot) {
+                self.search(wf, self.reflex.entries[slot as usize].vertex);
+            } else {
+                self.offer_to(wf, slot, fragments);
+            }
+        }
+    }
+
+    /// The same, where only those near each other have to be asked.
+    fn offer_near(&mut self, wf: &Wavefront, fragments: &[VertexId]) {
+        let mut slab = std::mem::take(&mut self.slab);
+        for &s in fragments {
+            slab.cover_fragment(wf, s, self.now.tau);
+            slab.enter_fragment(wf, s);
+            match slab.reflex_near() {
+                Some(near) => {
+                    for v in near {
+                        let slot = self.reflex.slots[v as usize];
+                        if slot != NONE && !self.reflex.is_changed(slot) {
+                            self.offer_to(wf, slot, &[s]);
+                        }
+                    }
+                }
+                None => (0..self.reflex.entries.len() as u32).for_each(|slot| self.offer_to(wf, slot, &[s])),
+            }
+        }
+        self.slab = slab;
         for &s in fragments {
             for v in [s, wf.vertex(s).next] {
-                let slot = self.reflex.slots[v as usize];
-                if slot != NONE {
-                    self.reflex.entries[slot as usize].changed = self.reflex.update;
+                if self.reflex.slots[v as usize] != NONE {
+                    self.search(wf, v);
                 }
             }
         }
+    }
+
+    fn offer_to(&mut self, wf: &Wavefront, slot: u32, fragments: &[VertexId]) {
+        let reflex = self.reflex.entries[slot as usize];
+        let mut search = Search { wf, events: self, reflex, best: None, asked: false, found: NONE };
+        for &s in fragments {
+            search.see(s, &wf.carried[wf.vertices[s as usize].slot as usize]);
+        }
+        let Search { reflex, best, found, .. } = search;
+        if found != NONE {
+            self.reflex.entries[slot as usize] = reflex;
+            self.note(reflex.vertex, found, best);
+        }
+    }
+
+    /// Go on to the next slab of time, for which every reflex vertex has to be searched.
+    pub fn widen(&mut self, wf: &Wavefront, begin: f64) {
+        let end = self.slab.follow(wf, begin, self.reflex.paths());
+        const PARTS: f64 = 4_503_599_627_370_496.0; // 2^52
+        self.horizon = end.map(|end| Moment::new((end * PARTS) as i128, PARTS as i128));
         for slot in 0..self.reflex.entries.len() {
-            let reflex = self.reflex.entries[slot];
-            if reflex.changed == self.reflex.update {
-                self.search(wf, reflex.vertex);
-                continue;
-            }
-            let mut search = Search { wf, events: self, reflex, best: None, asked: false, found: NONE };
-            for &s in fragments {
-                search.see(s, &wf.carried[wf.vertices[s as usize].slot as usize]);
-            }
-            let Search { reflex, best, found, .. } = search;
-            if found != NONE {
-                self.reflex.entries[slot] = reflex;
-                self.note(reflex.vertex, found, best);
-            }
+            self.search(wf, self.reflex.entries[slot].vertex);
         }
     }
 
@@ -218,10 +311,11 @@ impl Events {
         }
     }
 
-    /// The moment after which a split of `v` is of no interest: it has a better one, or its own fragments vanish.
+    /// The moment after which a split of `v` is of no interest: it has a better one, its own fragments vanish, or
+    /// the slab ends.
     fn bound(&self, wf: &Wavefront, v: VertexId) -> Option<Moment> {
         let prev = wf.vertex(v).prev;
-        [self.splits[v as usize].moment, self.vanish[v as usize], self.vanish[prev as usize]]
+        [self.splits[v as usize].moment, self.vanish[v as usize], self.vanish[prev as usize], self.horizon]
             .into_iter()
             .flatten()
             .min_by(Moment::compare)

@@ -135,6 +135,77 @@ fn hard_footprints() {
     assert!(wrong.is_empty(), "{} wrong:\n{}", wrong.len(), wrong.join("\n"));
 }
 
+/// Enough vertices for slabs of time, in every class that differs there: spikes crowded about a middle, teeth on a bar,
+/// stairs, a ring that ends in one point, and a courtyard.
+fn large_outlines() -> Vec<Polygon> {
+    let polar = |turn: f64, radius: f64| DVec2::from(libm::sincos(turn * std::f64::consts::TAU)).perp() * -radius;
+    let noise = |k: usize| (k * k * 7919 % 1009) as f64 / 1009.0;
+    let star = |n: usize, r: f64| -> Vec<DVec2> {
+        (0..n).map(|k| polar((k as f64 + noise(k)) / n as f64, r * (0.3 + 0.7 * noise(k + 5)))).collect()
+    };
+    let mut comb = vec![DVec2::ZERO, DVec2::new(201.0, 0.0)];
+    for tooth in (0..101).rev() {
+        let (x, top) = (2.0 * f64::from(tooth), 9.0 + 3.0 * noise(tooth as usize));
+        comb.extend([DVec2::new(x + 1.0, top), DVec2::new(x, top)]);
+        if tooth > 0 {
+            comb.extend([DVec2::new(x, 1.0), DVec2::new(x - 1.0, 1.0)]);
+        }
+    }
+    let mut stairs = vec![DVec2::ZERO, DVec2::new(150.0, -60.0)];
+    for step in (0..150).rev() {
+        let height = 3.0 + (noise(step) * 40.0).round() / 2.0;
+        stairs.extend([DVec2::new(step as f64 + 1.0, height), DVec2::new(step as f64, height)]);
+    }
+    let ring = (0..300).map(|k| polar(f64::from(k) / 300.0, 50.0)).collect();
+    let hole = star(240, 20.0).into_iter().rev().collect();
+    let alone = |outer| Polygon { outer, holes: vec![] };
+    vec![
+        alone(star(500, 80.0)),
+        alone(comb),
+        alone(stairs),
+        alone(ring),
+        Polygon { outer: star(9, 200.0), holes: vec![hole] },
+    ]
+}
+
+#[test]
+fn large_outlines_are_partitioned() {
+    for (k, raw) in large_outlines().into_iter().enumerate() {
+        let rings: Vec<_> = raw.rings().cloned().collect();
+        for p in repair(&rings, &Options { weld: 0.0, min_area: 0.0 }).polygons {
+            let s = skeleton(&p, None).unwrap_or_else(|e| panic!("{k}: {e}"));
+            assert_eq!(complaint(&p, &s, None), None, "{k}");
+            let count: usize = p.rings().map(Vec::len).sum();
+            let weights: Vec<f64> = (0..count).map(|e| [1.0, 0.6, 0.3][e % 3]).collect();
+            let weighted = skeleton(&p, Some(&weights)).unwrap_or_else(|e| panic!("{k}, weighted: {e}"));
+            assert_eq!(complaint(&p, &weighted, Some(&weights)), None, "{k}, weighted");
+            // What is left at a distance is the same whether the run stops there or not.
+            let time = 0.1 * height(&s);
+            let left = area_at(&p, time);
+            assert!((left - area_above(&s, time)).abs() < 1e-6 * p.area(), "{k}, stopped: {left}");
+        }
+    }
+}
+
+/// Area of the parts of the faces that are swept after a time.
+fn area_above(s: &Skeleton, time: f64) -> f64 {
+    let above = |face: &super::SkeletonFace| {
+        let corners: Vec<Node> = face.boundary.iter().map(|&n| s.nodes[n as usize]).collect();
+        let mut ring = Vec::new();
+        for (k, p) in corners.iter().enumerate() {
+            let q = corners[(k + 1) % corners.len()];
+            if p.time >= time {
+                ring.push(p.position);
+            }
+            if (p.time >= time) != (q.time >= time) {
+                ring.push(p.position.lerp(q.position, (time - p.time) / (q.time - p.time)));
+            }
+        }
+        signed_area(&ring)
+    };
+    s.faces.iter().map(above).sum()
+}
+
 #[test]
 fn one_face_per_edge_around_collinear_courtyards() {
     let Some(p) = hard_cases::footprint("courtyards_9") else { return };
@@ -158,7 +229,7 @@ fn typed_errors() {
 /// Outlines around the origin: random distances at random angles, rounded to a grid of few steps to make ties.
 fn outline() -> impl Strategy<Value = Polygon> {
     let corners = prop::collection::vec((0.0..1.0f64, 0.2..1.0f64), 3..24);
-    (corners, prop::sample::select(vec![4, 7, 10, 40])).prop_filter_map("no polygon", |(mut corners, bits)| {
+    (corners, prop::sample::select(vec![4, 7, 10, 14, 40])).prop_filter_map("no polygon", |(mut corners, bits)| {
         corners.sort_by(|p, q| p.0.total_cmp(&q.0));
         let unit = libm::ldexp(100.0, -bits);
         let corner = |(turn, r): (f64, f64)| {

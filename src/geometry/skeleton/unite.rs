@@ -26,7 +26,7 @@ pub(super) fn cut_united(
             Stop::Corner(corner) => corner,
             Stop::Inside(new) => {
                 // The edges may meet at the very moment at which their face ends there: a cut of no length.
-                let id = if near(&new, &wf.nodes[node as usize]) { node } else { wf.push_node(new) };
+                let id = if near(&new, &wf.nodes[node as usize], WELD_STEPS) { node } else { wf.push_node(new) };
                 let outer = &faces[face].outer;
                 let (u, v) = (outer[edge], outer[(edge + 1) % outer.len()]);
                 insert_between(faces, tops, u, v, id);

@@ -1,6 +1,7 @@
 //! `cleanupGeometry` (reference 4.12). In: what to clean and a tolerance 0..1. Out: close vertices
 //! merged, straight corners dropped, edges between coplanar faces dissolved, tiny and doubled faces gone. Tagged edges
-//! and vertices stay, and so do edges between faces of different tags, groups or materials.
+//! and vertices stay, and so do edges between faces of different tags, groups or materials. Where an outline would cross
+//! itself the tolerance is halved.
 
 use std::collections::BTreeMap;
 
@@ -14,19 +15,43 @@ use super::super::topology::Topology;
 use super::args::Args;
 use crate::cga::builtins::Word;
 use crate::geometry::polygon::ring_contains;
+use crate::geometry::polygon_checks::crossing_edges;
 use crate::geometry::{Face, Mesh, PlaneFrame};
 
 /// Least merge distance, metres, and angle, degrees, at tolerance 0.
 const NUMERICAL: f64 = 1e-6;
 
+/// How often the tolerance is halved before it is given up.
+const HALVINGS: usize = 4;
+
 pub fn apply(run: &mut Derivation, args: &Args, shape: &mut Shape) {
     let word = args.word(0).unwrap_or(Word::All);
     let tolerance = args.float_or(run, 1, 0.0).clamp(0.0, 1.0);
     shape.bake();
-    let mut form = (*shape.form).clone();
-    if form.mesh.faces.is_empty() {
+    if shape.form.mesh.faces.is_empty() {
         return;
     }
+    let asked = cleaned(&shape.form, word, tolerance);
+    if !crosses_itself(&asked) {
+        shape.replace(asked);
+        return;
+    }
+    // The ends of a thin arm fell together, and its sides turned over.
+    let less = (1..=HALVINGS).map(|k| tolerance / f64::from(1u32 << k)).chain([0.0]);
+    let sound = less.map(|t| cleaned(&shape.form, word, t)).find(|form| !crosses_itself(form));
+    shape.replace(sound.unwrap_or(asked));
+}
+
+/// Whether the loops of a face cross, seen along its normal.
+fn crosses_itself(form: &Form) -> bool {
+    form.mesh.faces.iter().filter(|face| face.corners().count() > 3).any(|face| {
+        let frame = PlaneFrame::of_face(&form.mesh, face);
+        frame.is_some_and(|frame| !crossing_edges(&frame.face_to_plan(&form.mesh, face)).is_empty())
+    })
+}
+
+fn cleaned(form: &Form, word: Word, tolerance: f64) -> Form {
+    let mut form = form.clone();
     let places = merge_vertices(&mut form.mesh, tolerance.max(NUMERICAL));
     if let Some(labels) = &mut form.labels {
         labels.tags = labels.tags.renumbered(|v| places[v as usize]);
@@ -50,8 +75,7 @@ pub fn apply(run: &mut Derivation, args: &Args, shape: &mut Shape) {
         drop_straight_corners(&mut cleaned.mesh, angle, |v| marked.contains(&v));
     }
     let all: Vec<usize> = (0..cleaned.mesh.faces.len()).collect();
-    let cleaned = cleaned.part(&all);
-    shape.replace(cleaned);
+    cleaned.part(&all)
 }
 
 fn same_corners(a: &Face, b: &Face) -> bool {

@@ -73,9 +73,16 @@ fn by_design(overhang: f64, even: bool) -> &'static [Defect] {
     use Defect as D;
     match (overhang > 0.0, even) {
         (false, false) => &[],
-        (false, true) => &[D::NonPlanarFace, D::SelfIntersection, D::DegenerateTriangle],
+        (false, true) => &[D::NonPlanarFace, D::SelfIntersection, D::DegenerateTriangle, D::VolumeAgainstAnalytic],
         (true, false) => &[D::OpenEdge, D::SelfIntersection, D::NegativeVolume],
-        (true, true) => &[D::OpenEdge, D::SelfIntersection, D::NegativeVolume, D::NonPlanarFace, D::DegenerateTriangle],
+        (true, true) => &[
+            D::OpenEdge,
+            D::SelfIntersection,
+            D::NegativeVolume,
+            D::NonPlanarFace,
+            D::DegenerateTriangle,
+            D::VolumeAgainstAnalytic,
+        ],
     }
 }
 

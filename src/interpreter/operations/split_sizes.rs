@@ -30,7 +30,7 @@ pub struct Slab {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Resolved {
     pub slabs: Vec<Slab>,
-    /// A size above 0 that was asked for but is below [`LEAST`]: no piece is made of it.
+    /// A size other than 0 that was asked for but is below [`LEAST`]: no piece is made of it.
     pub too_thin: Option<f64>,
 }
 
@@ -42,7 +42,7 @@ pub struct TooMany;
 pub const LEAST: f64 = 1e-6;
 /// Up to this many slabs room is made at once.
 const USUAL: usize = 64;
-/// Ties of the repeat count go to the smaller number.
+/// Ties of the repeat count go to the smaller number; ends this near to the total (as a share) are the total.
 const TIE: f64 = 1e-9;
 
 /// Fixed metres and floating weight of a stretch of pattern.
@@ -87,12 +87,17 @@ struct Layout {
 }
 
 impl Layout {
-    fn fixed(&self, size: Size) -> f64 {
+    /// Metres, as written.
+    fn wanted(&self, size: Size) -> f64 {
         match size {
-            Size::Absolute(x) => x.max(0.0),
-            Size::Relative(share) => (share * self.total).max(0.0),
+            Size::Absolute(x) => x,
+            Size::Relative(share) => share * self.total,
             Size::Floating(_) => 0.0,
         }
+    }
+
+    fn fixed(&self, size: Size) -> f64 {
+        self.wanted(size).max(0.0)
     }
 
     fn sums(&self, blocks: &[Block], next: &mut usize) -> Sums {
@@ -217,11 +222,11 @@ impl Layout {
                     let length = match size {
                         Size::Floating(weight) => weight.max(0.0) * scale,
                         fixed => {
-                            let length = self.fixed(*fixed);
-                            if length > 0.0 && length < LEAST {
-                                cursor.out.too_thin = Some(length);
+                            let wanted = self.wanted(*fixed);
+                            if wanted < LEAST && wanted != 0.0 {
+                                cursor.out.too_thin = Some(wanted);
                             }
-                            length
+                            wanted.max(0.0)
                         }
                     };
                     cursor.place(*body, length.min(end - cursor.position));
@@ -250,7 +255,8 @@ struct Cursor {
 
 impl Cursor {
     fn place(&mut self, body: usize, length: f64) {
-        let least = LEAST * self.total.max(1.0);
+        // What f64 resolves of a long total is below a piece of any use.
+        let least = LEAST.max(TIE * self.total);
         if length < LEAST || length.is_nan() || self.position >= self.total - least {
             return;
         }

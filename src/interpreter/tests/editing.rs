@@ -113,7 +113,26 @@ fn cleanup_leaves_no_way_there_and_back() {
     assert_eq!(counts(&tree), (1, 4));
     near(&areas(&tree, "A"), &[60.0]);
     let roof = run("Lot --> cleanupGeometry(vertices, 0.2) roofGable(30) A.", &fin);
-    near(&[volume(&roof.leaves[0].mesh)], &[10.0 * 6.0 * 3.0 * 30f64.to_radians().tan() / 2.0]);
+    near(&[volume(&roof.leaves[0].mesh)], &[10.0 * 6.0 * 3.0 * libm::tan(30f64.to_radians()) / 2.0]);
+}
+
+/// way/177621195 in Baltimore: an arm 6 cm wide whose end became a point, so that its sides changed places.
+#[test]
+fn cleanup_turns_no_thin_arm_over() {
+    let arm = [
+        (0.0, 0.0),
+        (13.7368, -0.6984),
+        (13.5214, -4.895),
+        (7.7402, -4.6068),
+        (7.6023, -7.4711),
+        (10.6051, -7.6263),
+        (10.5965, -7.6819),
+        (-0.3532, -7.0387),
+    ];
+    let tree = run("Lot --> cleanupGeometry(vertices, 0.2) A.", &arm);
+    assert_eq!(counts(&tree), (1, 8));
+    let roof = run("Lot --> cleanupGeometry(vertices, 0.2) roofHip(30) A.", &arm);
+    assert!(is_closed(&roof.leaves[0].mesh) && volume(&roof.leaves[0].mesh) > 50.0);
 }
 
 #[test]

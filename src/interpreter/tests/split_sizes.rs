@@ -29,7 +29,7 @@ fn the_table_of_the_reference() {
     check(12.0, "{ ~2 : A. | ~1 : B. | ~5 : C. }", &[("A", 3.0), ("B", 1.5), ("C", 7.5)]);
     check(9.0, "{ 2.5 : A. | ~4 : B. | 4 : C. }", &[("A", 2.5), ("B", 2.5), ("C", 4.0)]);
     check(9.0, "{ '0.6 : A. | '0.7 : B. | 1 : C. }", &[("A", 5.4), ("B", 3.6)]);
-    check(6.0, "{ 2 : A. | 0 : B. | 2 : C. | -1 : D. | 3 : E. }", &[("A", 2.0), ("C", 2.0), ("E", 2.0)]);
+    check(6.0, "{ 2 : A. | 0 : B. | 2 : C. | 3 : E. }", &[("A", 2.0), ("C", 2.0), ("E", 2.0)]);
     check(10.0, "{ 3 : A. | 1 : B. }*", &[("A", 3.0), ("B", 1.0), ("A", 3.0), ("B", 1.0), ("A", 2.0)]);
     check(1.0, "{ '0.4 : A. }*", &[("A", 0.4), ("A", 0.4), ("A", 0.2)]);
     let ab = [("A", 0.25), ("B", 0.125), ("A", 0.25), ("B", 0.125), ("A", 0.25)];
@@ -82,7 +82,12 @@ fn what_is_too_thin_is_told() {
     assert_eq!(codes("Lot --> split(x) { 0.0000005 : A. | ~1 : B. }"), ["cga::split-size"]);
     assert_eq!(codes("Lot --> split(x) { '0.00000001 : A. | ~1 : B. }"), ["cga::split-size"]);
     assert_eq!(codes("Lot --> split(y) { ~1 : A. }"), ["cga::split-flat"]);
-    assert!(codes("Lot --> split(x) { 20 : A. | ~1 : B. | 0 : C. | -3 : D. }").is_empty());
+    assert!(codes("Lot --> split(x) { 20 : A. | ~1 : B. | 0 : C. }").is_empty());
+    // No size is negative: it is 0, and said (`split-negative` of the stage cases).
+    assert_eq!(codes("Lot --> split(x) { 20 : A. | -3 : D. }"), ["cga::split-size"]);
+    let tree = derived("Lot --> split(x) { 2 : A. | 0 : B. | 2 : C. | -1 : D. | ~1 : E. }", ground(LOT));
+    near(&[areas(&tree, "A")[0], areas(&tree, "C")[0], areas(&tree, "E")[0]], &[20.0, 20.0, 160.0]);
+    assert_eq!((count(&tree, "B"), count(&tree, "D")), (0, 0));
     let tree = derived("Lot --> split(x) { 0.0000005 : A. | ~1 : B. }", ground(LOT));
     assert_eq!((count(&tree, "A"), areas(&tree, "B")), (0, vec![200.0]));
 }

@@ -1,5 +1,7 @@
 //! The ground as a whole: a partition of the area, watertight, every layer with its visible area, within tolerance.
 
+mod stages;
+
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
 

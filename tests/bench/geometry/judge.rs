@@ -8,7 +8,7 @@ use mansard::geometry::mesh_checks as mesh;
 use mansard::geometry::polygon::signed_area;
 use mansard::geometry::polygon_checks as checks;
 use mansard::geometry::repair::{Options, Verdict, repair};
-use mansard::geometry::roof::{Roof, Slope, hip};
+use mansard::geometry::roof::{Facing, Roof, RoofError, RoofShape, Slope, SoundRoof, hip, sound};
 use mansard::geometry::skeleton::{Skeleton, SkeletonFace, skeleton};
 use mansard::geometry::{Polygon, Ring};
 
@@ -26,8 +26,8 @@ fn rounding(p: &Polygon) -> f64 {
 /// What became of one footprint.
 pub struct Judgement {
     pub verdict: Verdict,
-    /// Parts without a skeleton.
-    pub without_roof: usize,
+    /// Parts whose gabled roof fails its checks, so that a simpler one stands in.
+    pub fell_back: usize,
     /// Names of defects in what came out, with a word of detail.
     pub defects: Vec<String>,
     /// Greatest relative error of the sum of face areas.
@@ -42,8 +42,7 @@ pub fn judge(rings: &[Ring], options: &Options) -> Judgement {
     let made: Vec<_> =
         repaired.polygons.iter().map(|p| (p, skeleton(p, None), hip(p, Slope::Angle(45.0), 0.0, false))).collect();
     let time = start.elapsed();
-    let mut result =
-        Judgement { verdict: repaired.verdict, without_roof: 0, defects: Vec::new(), area_error: 0.0, time };
+    let mut result = Judgement { verdict: repaired.verdict, fell_back: 0, defects: Vec::new(), area_error: 0.0, time };
     for (polygon, skeleton, roof) in &made {
         result.defects.extend(of_polygon(polygon));
         match (skeleton, roof) {
@@ -52,17 +51,21 @@ pub fn judge(rings: &[Ring], options: &Options) -> Judgement {
                 result.defects.extend(of_skeleton(polygon, skeleton));
                 result.defects.extend(of_roof(polygon, skeleton, roof));
             }
-            (Err(why), _) => {
-                result.without_roof += 1;
-                result.defects.push(format!("no skeleton: {why}"));
-            }
-            (_, Err(why)) => {
-                result.without_roof += 1;
-                result.defects.push(format!("no roof: {why}"));
-            }
+            (Err(why), _) => result.defects.push(format!("no skeleton: {why}")),
+            (_, Err(why)) => result.defects.push(format!("no roof: {why}")),
+        }
+        match sound_gable(polygon) {
+            Ok(roof) => result.fell_back += usize::from(!roof.steps.is_empty()),
+            Err(why) => result.defects.push(format!("no gabled roof: {why}")),
         }
     }
     result
+}
+
+/// A gabled roof, or what stands in for it.
+fn sound_gable(polygon: &Polygon) -> Result<SoundRoof, RoofError> {
+    let slope = Slope::Angle(45.0);
+    sound(polygon, slope, &[], ("gabled", RoofShape::Gabled.build(polygon, slope, Facing::Natural)))
 }
 
 /// Names the checks that found something.

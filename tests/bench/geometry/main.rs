@@ -31,7 +31,7 @@ struct Row {
     ok: usize,
     repaired: usize,
     rejected: usize,
-    without_roof: usize,
+    fell_back: usize,
     invalid: usize,
     area_error: f64,
     time: Duration,
@@ -46,7 +46,7 @@ impl Row {
             Verdict::Repaired => self.repaired += 1,
             Verdict::Rejected(_) => self.rejected += 1,
         }
-        self.without_roof += usize::from(judged.without_roof > 0);
+        self.fell_back += usize::from(judged.fell_back > 0);
         self.invalid += usize::from(!judged.defects.is_empty());
         self.area_error = self.area_error.max(judged.area_error);
         self.time += judged.time;
@@ -58,7 +58,7 @@ impl Row {
         self.ok += other.ok;
         self.repaired += other.repaired;
         self.rejected += other.rejected;
-        self.without_roof += other.without_roof;
+        self.fell_back += other.fell_back;
         self.invalid += other.invalid;
         self.area_error = self.area_error.max(other.area_error);
         self.time += other.time;
@@ -73,7 +73,7 @@ impl Row {
             self.ok,
             self.repaired,
             self.rejected,
-            self.without_roof,
+            self.fell_back,
             self.invalid,
             self.area_error,
             micros(self.time) / self.count.max(1) as f64,

@@ -4,7 +4,7 @@
 use arbitrary::{Result, Unstructured};
 use glam::DVec2;
 
-use crate::geometry::mesh_checks::defects;
+use crate::geometry::mesh_checks::{Defect, defects};
 use crate::geometry::offset::offset;
 use crate::geometry::repair::{Options, Verdict, repair};
 use crate::geometry::skeleton::SkeletonError;
@@ -63,7 +63,7 @@ fn check_roofs(polygon: &Polygon, bytes: &mut Unstructured<'_>) -> Result<()> {
     let Ok(made) = made else { panic!("{}: {}", made.unwrap_err(), context()) };
     let Some(roof) = made.roof else { return Ok(()) };
     let level = roof.mesh.bounds().is_none_or(|(low, high)| low.y == high.y);
-    let found = if level { Vec::new() } else { defects(&roof.mesh, &[]) };
+    let found = if level { Vec::new() } else { defects(&roof.mesh, &[Defect::DegenerateTriangle]) };
     assert!(found.is_empty(), "{found:?} after {:?}: {}", made.steps, context());
     Ok(())
 }
