@@ -11,6 +11,7 @@
 //! | Scene | [`scene`] | `ShapeTree`s + terrain | [`scene::Scene`] |
 //! | Recipe | [`spec`] | `SourceFile` | [`spec::render_spec::RenderSpec`] |
 //! | Plan | [`plan`] | `RenderSpec` + scene summary | [`plan::RenderPlan`] |
+//! | Truth | [`reference`] | [`plan::demand::ViewDemand`] + `Scene` | [`frame::Frame`] and its standard error |
 //! | Render | [`gpu`] | `RenderPlan` + `Scene` | [`frame::Frame`] |
 //! | Dataset | [`dataset`] | `Frame`s + labels | files |
 //!
@@ -28,6 +29,7 @@ pub mod output;
 pub mod parsing;
 pub mod pipeline;
 pub mod plan;
+pub mod reference;
 pub mod scene;
 pub mod source;
 pub mod spec;

@@ -22,9 +22,6 @@ use crate::scene::Scene;
 
 pub use device::Adapter;
 
-/// Linear radiance where nothing is drawn: a dark, nearly neutral ground (sRGB 99, 102, 94).
-pub const BACKGROUND: [f64; 3] = [0.125, 0.133, 0.112];
-
 /// What can go wrong between the plan and the frame; none of it is the recipe's mistake.
 #[derive(Debug, thiserror::Error)]
 pub enum GpuError {
@@ -94,4 +91,4 @@ impl Renderer {
 }
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

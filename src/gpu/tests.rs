@@ -6,12 +6,12 @@ mod economy;
 mod lighting;
 mod shaders;
 mod tiling;
-mod town;
+pub(crate) mod town;
 
 use super::Renderer;
 
 /// A renderer, or `None` with a line saying that the test was skipped.
-fn renderer() -> Option<Renderer> {
+pub(crate) fn renderer() -> Option<Renderer> {
     match Renderer::new() {
         Ok(renderer) => Some(renderer),
         Err(error) if std::env::var("MANSARD_REQUIRE_GPU").is_ok_and(|v| v == "1") => panic!("{error}"),

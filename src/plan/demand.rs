@@ -64,6 +64,9 @@ pub enum State {
     After,
 }
 
+/// Linear radiance where nothing is drawn: a dark, nearly neutral ground (sRGB 99, 102, 94).
+pub const BACKGROUND: [f64; 3] = [0.125, 0.133, 0.112];
+
 /// Which objects a pass draws.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Selection {

@@ -3,12 +3,11 @@
 use glam::DVec3;
 
 use super::{Drawing, begin};
-use crate::gpu::BACKGROUND;
 use crate::gpu::device::Gpu;
 use crate::gpu::pipelines::{GeometryPipeline, Layouts};
 use crate::gpu::pools::Target;
 use crate::gpu::tiles::light_rows;
-use crate::plan::demand::{Ambient, Sun};
+use crate::plan::demand::{Ambient, BACKGROUND, Sun};
 use crate::plan::light::LightFrame;
 use crate::plan::pass::{PipelineKey, ShadowFilter, Surface};
 use crate::plan::resource::Format;

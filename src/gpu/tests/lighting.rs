@@ -187,7 +187,7 @@ fn samples_are_averaged_in_linear_light() {
         let frame = town::render(&mut renderer, &scene, demand.clone());
         let row: Vec<f64> = (0..8).map(|x| f64::from(rgb(&frame, 0)[x * 3 + 1])).collect();
         let lit = ground(&demand.sun.expect("set"), 0.2, true)[1];
-        let empty = crate::gpu::BACKGROUND[1];
+        let empty = crate::plan::demand::BACKGROUND[1];
         assert!((row[3] - byte(lit)).abs() <= 1.0 && (row[5] - byte(empty)).abs() <= 1.0, "{row:?}");
         if let Some(share) = share {
             let mixed = byte(lit * share + empty * (1.0 - share));
