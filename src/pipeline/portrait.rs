@@ -14,7 +14,7 @@ use crate::gpu::Renderer;
 use crate::interpreter::material::Material;
 use crate::interpreter::tree::ShapeTree;
 use crate::plan::demand::{
-    Ambient, Camera, Output, OutputDemand, Projection, Quality, Selection, Shadows, State, Sun, ViewDemand,
+    Ambient, Camera, Look, Output, OutputDemand, Projection, Quality, Selection, Shadows, State, Sun, ViewDemand,
 };
 use crate::plan::{schedule, summarize, sun, view};
 use crate::scene::{Group, Presence, Scene, SceneClass, SceneObject, TriMesh};
@@ -113,14 +113,16 @@ fn demand(scene: &Scene, camera: Camera) -> ViewDemand {
         output: Output::Color,
         selection: Selection { state: State::Before, objects: scene.objects.iter().map(|_| true).collect() },
         marked: None,
-        shadows: Shadows::Soft,
-        ambient: Ambient::Sky { zenith: [0.42, 0.43, 0.46], ground: [0.25, 0.25, 0.24] },
+        look: Look::plain(
+            Shadows::Soft,
+            Ambient::Sky { zenith: [0.42, 0.43, 0.46], ground: [0.25, 0.25, 0.24], occluded: false },
+        ),
     };
     ViewDemand {
         name: "portrait".into(),
         camera,
         sun: Some(Sun { direction, disc_deg: 0.53, irradiance: [0.72, 0.71, 0.68] }),
-        quality: Quality { supersample: 4, shadow_map: 2048, shadow_samples: 3 },
+        quality: Quality { supersample: 4, shadow_map: 2048, shadow_samples: 3, sky_samples: 1, field_map: 64 },
         outputs: vec![output],
     }
 }

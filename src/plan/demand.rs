@@ -2,6 +2,8 @@
 
 use glam::DVec3;
 
+pub use super::effects::{Ambient, Look, Shadows};
+
 /// How space is projected onto the image. Pixel (i, j) covers [i, i+1) × [j, j+1), j downwards, centre at +0.5.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Projection {
@@ -36,26 +38,6 @@ pub struct Sun {
     pub disc_deg: f64,
     /// Irradiance on a surface facing the sun, linear RGB, 1 is the brightness that a white diffuse surface shows as white.
     pub irradiance: [f64; 3],
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Shadows {
-    Off,
-    Hard,
-    Soft,
-}
-
-/// Light that comes from everywhere.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Ambient {
-    Off,
-    /// The same radiance from every direction, linear RGB.
-    Constant([f64; 3]),
-    /// A sky dome over a ground: irradiance goes with the normal from `ground` (down) to `zenith` (up), linear RGB.
-    Sky {
-        zenith: [f64; 3],
-        ground: [f64; 3],
-    },
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -103,8 +85,8 @@ pub struct OutputDemand {
     pub selection: Selection,
     /// For [`Output::Mask`]: one flag per object.
     pub marked: Option<std::sync::Arc<[bool]>>,
-    pub shadows: Shadows,
-    pub ambient: Ambient,
+    /// What a colour image shows of light; [`Look::none`] for all others.
+    pub look: Look,
 }
 
 /// Settings that trade accuracy for time.
@@ -116,6 +98,10 @@ pub struct Quality {
     pub shadow_map: u32,
     /// Samples of the shadow filter per side.
     pub shadow_samples: u32,
+    /// Directions from which an occluded sky is seen.
+    pub sky_samples: u32,
+    /// Texels per side of the maps of clouds and of the state of the ground.
+    pub field_map: u32,
 }
 
 /// One view with everything drawn.

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::demand::{Ambient, Output, OutputDemand, Shadows, Sun, ViewDemand};
+use super::demand::{Look, Output, OutputDemand, Shadows, Sun, ViewDemand};
 use super::light::{self, LightFrame};
 use super::pass::{
     DrawSet, Encoding, Pass, PassKind, PipelineKey, Product, RenderPlan, ShadowFilter, Skipped, Stage, Surface,
@@ -31,10 +31,9 @@ pub fn schedule(views: &[ViewDemand], objects: &[ObjectSummary]) -> RenderPlan {
 
 /// What one shading depends on.
 #[derive(Clone, PartialEq)]
-struct Look {
+struct Shading {
     draw: DrawSet,
-    shadows: Shadows,
-    ambient: Ambient,
+    look: Look,
 }
 
 struct ViewScheduler<'a> {
@@ -67,10 +66,8 @@ impl<'a> ViewScheduler<'a> {
 
     /// Shadow map, shading and resolve for each look.
     fn colors(&mut self) {
-        let looks = self.group(
-            |o| o.output == Output::Color,
-            |s, o| Look { draw: s.draw_set(o), shadows: o.shadows, ambient: o.ambient },
-        );
+        let looks =
+            self.group(|o| o.output == Output::Color, |s, o| Shading { draw: s.draw_set(o), look: o.look.clone() });
         if looks.is_empty() {
             self.skip("shading", "no output asks for colour");
             self.skip("shadow map", "no output asks for colour");
@@ -85,10 +82,10 @@ impl<'a> ViewScheduler<'a> {
     /// The shadow map that `look` reads: the last one again if it shows the same objects.
     fn shadow_map(
         &mut self,
-        look: &Look,
+        look: &Shading,
         drawn: &mut Option<(DrawSet, ResourceId)>,
     ) -> Option<(LightFrame, ResourceId)> {
-        if look.shadows == Shadows::Off {
+        if look.look.shadows == Shadows::Off {
             self.skip("shadow map", "shadows are off");
             return None;
         }
@@ -116,13 +113,13 @@ impl<'a> ViewScheduler<'a> {
         Some((light, id))
     }
 
-    fn shade(&mut self, look: Look, shadow: Option<(LightFrame, ResourceId)>, outputs: &[usize]) {
+    fn shade(&mut self, look: Shading, shadow: Option<(LightFrame, ResourceId)>, outputs: &[usize]) {
         let supersample = self.view.quality.supersample.max(1);
         let radiance = self.resource("shade", Format::Radiance16, self.size(), supersample, true);
         let depth = self.resource("shade.depth", Format::Depth32, self.size(), supersample, true);
         let color = self.resource("resolve", Format::Srgb8, self.size(), 1, true);
         let filter = match (shadow, self.sun()) {
-            (Some((frame, _)), Some(sun)) => self.filter(look.shadows, &frame, &sun),
+            (Some((frame, _)), Some(sun)) => self.filter(look.look.shadows, &frame, &sun),
             _ => ShadowFilter::Unshadowed,
         };
         let pipelines = self
@@ -132,7 +129,7 @@ impl<'a> ViewScheduler<'a> {
             .collect();
         let light = shadow.map(|(frame, _)| frame);
         let shade = Pass {
-            kind: PassKind::Shade { draw: look.draw, sun: self.sun(), ambient: look.ambient, light },
+            kind: PassKind::Shade { draw: look.draw, sun: self.sun(), ambient: look.look.ambient, light },
             reads: shadow.map(|(_, id)| id).into_iter().collect(),
             writes: vec![radiance, depth],
             pipelines,

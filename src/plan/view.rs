@@ -9,7 +9,7 @@ use glam::DVec3;
 use serde::Serialize;
 
 use super::demand::{
-    Ambient, Camera, Output, OutputDemand, Projection, Quality, Selection, Shadows, State, ViewDemand,
+    Ambient, Camera, Look, Output, OutputDemand, Projection, Quality, Selection, Shadows, State, ViewDemand,
 };
 use super::sun::sun;
 use crate::geodata::feature::FeatureId;
@@ -123,6 +123,8 @@ fn drawn_view(
                 supersample: dataset.quality.supersample,
                 shadow_map: dataset.quality.shadow_map,
                 shadow_samples: dataset.quality.shadow_samples,
+                sky_samples: dataset.quality.sky_samples,
+                field_map: dataset.quality.field_map,
             },
             outputs,
         });
@@ -265,8 +267,7 @@ fn outputs(pass: &PassSpec, spec: &RenderSpec, dataset: &DatasetSpec, summary: &
             output: output_of(*output),
             selection: Selection { state, objects: objects.clone() },
             marked: (*output == OutputSpec::Mask).then(|| marked.clone()),
-            shadows: if lit { shadows_of(shadows) } else { Shadows::Off },
-            ambient: if lit { ambient_of(ambient) } else { Ambient::Off },
+            look: if lit { Look::plain(shadows_of(shadows), ambient_of(ambient)) } else { Look::none() },
         }
     };
     pass.outputs.iter().map(one).collect()
@@ -323,7 +324,7 @@ fn ambient_of(ambient: AmbientSpec) -> Ambient {
     match ambient {
         AmbientSpec::Off => Ambient::Off,
         AmbientSpec::Constant(radiance) => Ambient::Constant(radiance),
-        AmbientSpec::Sky => Ambient::Sky { zenith: SKY_ZENITH, ground: SKY_GROUND },
+        AmbientSpec::Sky => Ambient::Sky { zenith: SKY_ZENITH, ground: SKY_GROUND, occluded: false },
     }
 }
 

@@ -17,8 +17,6 @@ pub struct Lighting<'a> {
     pub sun: Option<Sun>,
     pub shadows: Shadows,
     pub ambient: Ambient,
-    /// Whether the scene hides parts of the sky.
-    pub sky_occlusion: bool,
     /// Objects that are there, for what they show and for what they hide.
     pub shown: &'a [bool],
 }
@@ -53,12 +51,12 @@ impl Lighting<'_> {
     /// Irradiance over π from the sky and the ground. A sky of radiance `zenith` over a ground of radiance `ground`
     /// gives the weighted mean that goes with the normal's height, exactly; what hides a part of the sky is black.
     fn sky(&self, tracer: &Tracer, point: &Point, strata: &Strata, sample: u32) -> Rgb {
-        let (zenith, ground) = match self.ambient {
+        let (zenith, ground, occluded) = match self.ambient {
             Ambient::Off => return [0.0; 3],
-            Ambient::Constant(radiance) => (radiance, radiance),
-            Ambient::Sky { zenith, ground } => (zenith, ground),
+            Ambient::Constant(radiance) => (radiance, radiance, false),
+            Ambient::Sky { zenith, ground, occluded } => (zenith, ground, occluded),
         };
-        if !self.sky_occlusion {
+        if !occluded {
             let up = 0.5 + 0.5 * point.normal.dot(DVec3::Y);
             return std::array::from_fn(|k| zenith[k] * up + ground[k] * (1.0 - up));
         }

@@ -52,15 +52,13 @@ pub struct Options<'a> {
     pub passes: u32,
     /// Stops as soon as the mean standard error is not above this, linear light.
     pub enough: Option<f64>,
-    /// Whether the scene hides parts of the sky; the wgpu renderer has no such effect.
-    pub sky_occlusion: bool,
     /// Hears of every pass, on the calling thread.
     pub told: &'a dyn Fn(Progress),
 }
 
 impl Default for Options<'_> {
     fn default() -> Self {
-        Options { seed: 0, side: 3, passes: 4, enough: None, sky_occlusion: false, told: &|_| {} }
+        Options { seed: 0, side: 3, passes: 4, enough: None, told: &|_| {} }
     }
 }
 

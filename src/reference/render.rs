@@ -45,9 +45,8 @@ impl Tracer {
     fn color(&self, view: &ViewDemand, output: &OutputDemand, options: &Options) -> Estimate {
         let lighting = Lighting {
             sun: view.sun.filter(|sun| sun.direction.y > 0.0),
-            shadows: output.shadows,
-            ambient: output.ambient,
-            sky_occlusion: options.sky_occlusion,
+            shadows: output.look.shadows,
+            ambient: output.look.ambient,
             shown: &output.selection.objects,
         };
         let seed = Seed::root(options.seed).named(&view.name);

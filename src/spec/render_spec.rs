@@ -288,6 +288,10 @@ pub struct QualitySpec {
     pub shadow_map: u32,
     /// Shadow filter samples per side.
     pub shadow_samples: u32,
+    /// Directions from which an occluded sky is seen.
+    pub sky_samples: u32,
+    /// Texels per side of the maps of clouds and of the state of the ground.
+    pub field_map: u32,
 }
 
 /// A set of objects.

@@ -131,7 +131,15 @@ pub const BLOCKS: &[BlockShape] = &[
     },
     BlockShape {
         kind: "quality",
-        keys: &[key("preset"), key("antialiasing"), key("shadow_map"), key("shadow_samples"), key("error").later()],
+        keys: &[
+            key("preset"),
+            key("antialiasing"),
+            key("shadow_map"),
+            key("shadow_samples"),
+            key("sky_samples"),
+            key("field_map"),
+            key("error").later(),
+        ],
     },
     BlockShape {
         kind: "dataset",

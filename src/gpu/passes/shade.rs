@@ -36,7 +36,7 @@ pub fn light_uniform(camera: DVec3, sun: Option<&Sun>, ambient: Ambient, light: 
     let (zenith, ground) = match ambient {
         Ambient::Off => ([0.0; 3], [0.0; 3]),
         Ambient::Constant(radiance) => (radiance, radiance),
-        Ambient::Sky { zenith, ground } => (zenith, ground),
+        Ambient::Sky { zenith, ground, .. } => (zenith, ground),
     };
     let direction = sun.map_or(DVec3::Y, |s| s.direction);
     let irradiance = sun.map_or([0.0; 3], |s| s.irradiance);

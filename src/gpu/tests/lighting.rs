@@ -21,7 +21,7 @@ fn ground(sun: &Sun, ambient: f64, lit: bool) -> [f64; 3] {
 
 fn hard(scene: &Scene, camera: crate::plan::demand::Camera, sun: Sun) -> ViewDemand {
     let mut output = demand(scene, Output::Color, State::Before);
-    (output.shadows, output.ambient) = (Shadows::Hard, Ambient::Constant([0.2; 3]));
+    (output.look.shadows, output.look.ambient) = (Shadows::Hard, Ambient::Constant([0.2; 3]));
     view(camera, sun, vec![output])
 }
 
@@ -34,7 +34,7 @@ fn a_lit_plane_has_the_colour_of_the_formula_everywhere() {
     for (elevation, azimuth) in [(90.0, 0.0), (60.0, 33.0), (20.0, 190.0), (5.0, 100.0), (1.5, 271.0)] {
         for shadows in [Shadows::Off, Shadows::Hard, Shadows::Soft] {
             let mut demand = hard(&scene, nadir(0.0, 0.0, 1.0, 96, 96), sun(elevation, azimuth));
-            demand.outputs[0].shadows = shadows;
+            demand.outputs[0].look.shadows = shadows;
             let frame = town::render(&mut renderer, &scene, demand.clone());
             let expected = ground(&demand.sun.expect("set"), 0.2, true).map(byte);
             let wrong = |p: &[u8]| (0..3).any(|c| (f64::from(p[c]) - expected[c]).abs() > 1.0);
@@ -55,7 +55,7 @@ fn slopes_have_no_acne() {
         town::add(&mut scene, crate::scene::SceneClass::Building, Presence::Both, &[(face, town::GROUND)]);
         for (elevation, azimuth) in [(70.0, 10.0), (40.0, 350.0), (15.0, 280.0)] {
             let mut demand = hard(&scene, nadir(0.0, 0.0, 1.0, 64, 64), sun(elevation, azimuth));
-            demand.outputs[0].shadows = Shadows::Soft;
+            demand.outputs[0].look.shadows = Shadows::Soft;
             let frame = town::render(&mut renderer, &scene, demand);
             let colors: std::collections::BTreeSet<_> = rgb(&frame, 0).chunks_exact(3).map(|p| p[0]).collect();
             let spread = colors.last().zip(colors.first()).map(|(a, b)| a - b);
@@ -92,9 +92,9 @@ fn smooth_ground_of_flat_triangles_has_no_acne() {
     rolling(&mut scene);
     for (elevation, azimuth) in [(60.0, 77.0), (30.0, 200.0), (15.0, 310.0)] {
         let mut shadowed = demand(&scene, Output::Color, State::Before);
-        shadowed.shadows = Shadows::Soft;
+        shadowed.look.shadows = Shadows::Soft;
         let mut open = shadowed.clone();
-        open.shadows = Shadows::Off;
+        open.look.shadows = Shadows::Off;
         let view = view(nadir(0.0, 0.0, 0.5, 500, 500), sun(elevation, azimuth), vec![shadowed, open]);
         let frame = town::render(&mut renderer, &scene, view);
         town::keep(&frame, 0, &format!("rolling_{elevation}.png"));
@@ -182,7 +182,7 @@ fn samples_are_averaged_in_linear_light() {
     town::plane(&mut scene, (-20.0, -20.0), (0.5, 20.0), town::GROUND);
     for (supersample, share) in [(1, None), (2, Some(0.5)), (4, Some(0.5)), (6, Some(0.5)), (3, Some(1.0 / 3.0))] {
         let mut demand = hard(&scene, nadir(0.0, 0.0, 1.0, 8, 4), sun(90.0, 0.0));
-        demand.outputs[0].shadows = Shadows::Off;
+        demand.outputs[0].look.shadows = Shadows::Off;
         demand.quality.supersample = supersample;
         let frame = town::render(&mut renderer, &scene, demand.clone());
         let row: Vec<f64> = (0..8).map(|x| f64::from(rgb(&frame, 0)[x * 3 + 1])).collect();
@@ -208,7 +208,7 @@ fn sky_light_goes_with_the_normal() {
     town::add(&mut scene, crate::scene::SceneClass::Building, Presence::Both, &[(face, town::GROUND)]);
     let mut demand = hard(&scene, nadir(0.0, 0.0, 1.0, 8, 8), sun(45.0, 0.0));
     demand.sun = None;
-    demand.outputs[0].ambient = Ambient::Sky { zenith: [0.8; 3], ground: [0.2; 3] };
+    demand.outputs[0].look.ambient = Ambient::Sky { zenith: [0.8; 3], ground: [0.2; 3], occluded: false };
     let frame = town::render(&mut renderer, &scene, demand);
     // A slope of 45°: the cosine of its normal to the zenith is √½.
     let irradiance = 0.2 + 0.6 * (0.5 + 0.5 * 0.5f64.sqrt());

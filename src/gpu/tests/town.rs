@@ -8,7 +8,7 @@ use crate::frame::{Frame, Pixels};
 use crate::gpu::Renderer;
 use crate::interpreter::material::Material;
 use crate::plan::demand::{
-    Ambient, Camera, Output, OutputDemand, Projection, Quality, Selection, Shadows, State, Sun, ViewDemand,
+    Ambient, Camera, Look, Output, OutputDemand, Projection, Quality, Selection, Shadows, State, Sun, ViewDemand,
 };
 use crate::plan::{RenderPlan, schedule, summarize};
 use crate::scene::{Group, Presence, Scene, SceneClass, SceneObject, TriMesh};
@@ -177,13 +177,15 @@ pub fn demand(scene: &Scene, output: Output, state: State) -> OutputDemand {
         output,
         selection: Selection { state, objects: scene.objects.iter().map(|o| is_present(o, state)).collect() },
         marked: Some(scene.objects.iter().map(|o| o.presence != Presence::Both).collect()),
-        shadows: Shadows::Soft,
-        ambient: Ambient::Sky { zenith: [0.16, 0.19, 0.26], ground: [0.06, 0.06, 0.05] },
+        look: Look::plain(
+            Shadows::Soft,
+            Ambient::Sky { zenith: [0.16, 0.19, 0.26], ground: [0.06, 0.06, 0.05], occluded: false },
+        ),
     }
 }
 
 pub fn view(camera: Camera, sun: Sun, outputs: Vec<OutputDemand>) -> ViewDemand {
-    let quality = Quality { supersample: 2, shadow_map: 1024, shadow_samples: 3 };
+    let quality = Quality { supersample: 2, shadow_map: 1024, shadow_samples: 3, sky_samples: 4, field_map: 64 };
     ViewDemand { name: "test".into(), camera, sun: Some(sun), quality, outputs }
 }
 

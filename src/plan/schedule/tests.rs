@@ -1,7 +1,7 @@
 //! What a plan holds, and above all what it does not hold.
 
 use super::*;
-use crate::plan::demand::{Camera, Projection, Quality, Selection, State};
+use crate::plan::demand::{Ambient, Camera, Look, Projection, Quality, Selection, State};
 use crate::plan::dump;
 use crate::plan::pass::Counts;
 
@@ -20,8 +20,7 @@ fn output(output: Output, state: State) -> OutputDemand {
         output,
         selection: Selection { state, objects: [true, state == State::Before, state == State::After].into() },
         marked: Some([false, true, true].into()),
-        shadows: Shadows::Soft,
-        ambient: Ambient::Constant([0.2; 3]),
+        look: Look::plain(Shadows::Soft, Ambient::Constant([0.2; 3])),
     }
 }
 
@@ -37,7 +36,7 @@ fn view(outputs: Vec<OutputDemand>) -> ViewDemand {
         near: 50.0,
     };
     let sun = Sun { direction: DVec3::new(0.6, 0.8, 0.0), disc_deg: 0.53, irradiance: [1.0; 3] };
-    let quality = Quality { supersample: 2, shadow_map: 256, shadow_samples: 3 };
+    let quality = Quality { supersample: 2, shadow_map: 256, shadow_samples: 3, sky_samples: 4, field_map: 64 };
     ViewDemand { name: "v".into(), camera, sun: Some(sun), quality, outputs }
 }
 
@@ -86,7 +85,7 @@ fn before_and_after_have_a_shadow_map_each_in_one_texture() {
 #[test]
 fn equal_colours_are_shaded_once_and_other_light_shares_the_map() {
     let mut dim = output(Output::Color, State::After);
-    dim.ambient = Ambient::Off;
+    dim.look.ambient = Ambient::Off;
     let twice = output(Output::Color, State::After);
     let plan = schedule(&[view(vec![twice.clone(), twice, dim])], &objects());
     assert_eq!(stems(&plan), ["shadow_map", "shade", "resolve", "shade", "resolve"]);
@@ -97,7 +96,7 @@ fn no_sun_and_no_shadows_make_no_map() {
     let mut night = view(vec![output(Output::Color, State::After)]);
     night.sun = night.sun.map(|s| Sun { direction: DVec3::new(0.8, -0.6, 0.0), ..s });
     let mut flat = view(vec![output(Output::Color, State::After)]);
-    flat.outputs[0].shadows = Shadows::Off;
+    flat.outputs[0].look.shadows = Shadows::Off;
     let plan = schedule(&[night, flat], &objects());
     assert_eq!(stems(&plan), ["shade", "resolve", "shade", "resolve"]);
     assert_eq!(plan.views[0].skipped[0].reason, "no sun above the horizon");

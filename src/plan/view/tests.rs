@@ -148,7 +148,7 @@ fn passes_select_objects_by_set_and_state() {
     assert_eq!(flags("after"), ("1101101".into(), None));
     assert_eq!(flags("mask"), ("0011000".into(), Some("0011000".into())));
     assert_eq!(flags("labels_mask"), ("1101011".into(), Some("0001000".into())));
-    let lights: Vec<_> = demand.outputs.iter().map(|output| (output.shadows, output.output)).collect();
+    let lights: Vec<_> = demand.outputs.iter().map(|output| (output.look.shadows, output.output)).collect();
     assert_eq!(lights[0], (Shadows::Soft, Output::Color));
     assert_eq!(lights[2], (Shadows::Off, Output::Mask));
 }

@@ -21,7 +21,7 @@ fn the_town_is_the_same_town() {
             [(Shadows::Off, 50.0), (Shadows::Hard, 50.0), (Shadows::Hard, 12.0), (Shadows::Soft, 35.0)]
         {
             let mut outputs = OUTPUTS.map(|o| demand(&scene, o, State::After)).to_vec();
-            outputs[0].shadows = shadows;
+            outputs[0].look.shadows = shadows;
             let mut demand = view(camera, sun(elevation, 120.0), outputs);
             (demand.quality.supersample, demand.quality.shadow_map) = (4, 4096);
             let drawn = town::render(&mut renderer, &scene, demand.clone());

@@ -13,7 +13,7 @@ fn edge(covered: f64) -> (Scene, ViewDemand, f64) {
     let mut scene = town::empty();
     town::plane(&mut scene, (-300.0, -300.0), (covered, 300.0), town::GROUND);
     let mut output = demand(&scene, Output::Color, State::Before);
-    (output.shadows, output.ambient) = (Shadows::Off, Ambient::Constant([1.0; 3]));
+    (output.look.shadows, output.look.ambient) = (Shadows::Off, Ambient::Constant([1.0; 3]));
     let mut view = view(nadir(0.0, 0.0, 1.0, 2, 400), sun(45.0, 0.0), vec![output]);
     view.sun = None;
     (scene, view, color::linear(0.6) * covered + BACKGROUND[1] * (1.0 - covered))

@@ -24,7 +24,7 @@ fn share(sun: &Sun, green: f64) -> f64 {
 
 fn lit(scene: &Scene, camera: Camera, sun: Sun, shadows: Shadows) -> ViewDemand {
     let mut output = demand(scene, Output::Color, State::Before);
-    (output.shadows, output.ambient) = (shadows, Ambient::Constant([AMBIENT; 3]));
+    (output.look.shadows, output.look.ambient) = (shadows, Ambient::Constant([AMBIENT; 3]));
     view(camera, sun, vec![output])
 }
 
@@ -102,7 +102,7 @@ fn level_and_steep_faces_do_not_shadow_themselves() {
             let mut demand = lit(&scene, camera, sun(elevation, azimuth), Shadows::Hard);
             let options = Options { side: 2, passes: 2, ..Options::default() };
             let shadowed = render(&scene, &demand, &options);
-            demand.outputs[0].shadows = Shadows::Off;
+            demand.outputs[0].look.shadows = Shadows::Off;
             assert_eq!(shadowed.frame, render(&scene, &demand, &options).frame, "slope {tilt} under {elevation}°");
         }
     }
@@ -196,8 +196,8 @@ fn a_wall_hides_its_form_factor_of_the_sky() {
     let scene = walled(10.0);
     let mut demand = lit(&scene, strip(0.0, 40, 1.0), sun(45.0, 270.0), Shadows::Off);
     demand.sun = None;
-    demand.outputs[0].ambient = Ambient::Sky { zenith: [1.0; 3], ground: [0.0; 3] };
-    let rendered = render(&scene, &demand, &Options { side: 8, passes: 16, sky_occlusion: true, ..Options::default() });
+    demand.outputs[0].look.ambient = Ambient::Sky { zenith: [1.0; 3], ground: [0.0; 3], occluded: true };
+    let rendered = render(&scene, &demand, &Options { side: 8, passes: 16, ..Options::default() });
     let estimate = estimate(&rendered);
     for (i, (light, error)) in estimate.linear.iter().zip(&estimate.standard_error).enumerate() {
         // An endless strip up to the angle α hides (1 - cos α) / 2 of the sky's light; the mean over the pixel.
@@ -216,10 +216,10 @@ fn an_open_sky_is_the_mean_that_goes_with_the_normal() {
     town::add(&mut scene, SceneClass::Building, Presence::Both, &[(face, town::GROUND)]);
     let mut demand = lit(&scene, nadir(0.0, 0.0, 1.0, 8, 8), sun(45.0, 0.0), Shadows::Hard);
     demand.sun = None;
-    demand.outputs[0].ambient = Ambient::Sky { zenith: [0.8; 3], ground: [0.2; 3] };
     let expected = color::linear(0.6) * (0.2 + 0.6 * (0.5 + 0.5 * 0.5f64.sqrt()));
-    for (sky_occlusion, allowed) in [(false, 1e-7), (true, 0.002)] {
-        let rendered = render(&scene, &demand, &Options { side: 8, passes: 4, sky_occlusion, ..Options::default() });
+    for (occluded, allowed) in [(false, 1e-7), (true, 0.002)] {
+        demand.outputs[0].look.ambient = Ambient::Sky { zenith: [0.8; 3], ground: [0.2; 3], occluded };
+        let rendered = render(&scene, &demand, &Options { side: 8, passes: 4, ..Options::default() });
         let light = estimate(&rendered).linear.iter().map(|c| c[1]).sum::<f64>() / 64.0;
         assert!((light - expected).abs() < allowed, "{light}, not {expected}");
     }

@@ -7,9 +7,9 @@ use crate::spec::units::Dimension;
 
 /// Named sets of knobs.
 const PRESETS: [(&str, QualitySpec); 3] = [
-    ("draft", QualitySpec { supersample: 1, shadow_map: 2048, shadow_samples: 1 }),
-    ("standard", QualitySpec { supersample: 2, shadow_map: 4096, shadow_samples: 4 }),
-    ("high", QualitySpec { supersample: 4, shadow_map: 8192, shadow_samples: 8 }),
+    ("draft", QualitySpec { supersample: 1, shadow_map: 2048, shadow_samples: 1, sky_samples: 8, field_map: 512 }),
+    ("standard", QualitySpec { supersample: 2, shadow_map: 4096, shadow_samples: 4, sky_samples: 24, field_map: 1024 }),
+    ("high", QualitySpec { supersample: 4, shadow_map: 8192, shadow_samples: 8, sky_samples: 64, field_map: 2048 }),
 ];
 
 /// What a recipe without a `quality` block gets.
@@ -36,6 +36,8 @@ impl Checker<'_> {
         };
         let shadow_map = knob("shadow_map", 64, 16_384);
         let shadow_samples = knob("shadow_samples", 1, 16);
+        let sky_samples = knob("sky_samples", 1, 256);
+        let field_map = knob("field_map", 64, 8192);
         let samples = knob("antialiasing", 1, 64);
         let supersample = match samples? {
             Some(samples) => Some(self.per_side(samples, block)?),
@@ -46,6 +48,8 @@ impl Checker<'_> {
             supersample: supersample.unwrap_or(preset.supersample),
             shadow_map: shadow_map?.unwrap_or(preset.shadow_map),
             shadow_samples: shadow_samples?.unwrap_or(preset.shadow_samples),
+            sky_samples: sky_samples?.unwrap_or(preset.sky_samples),
+            field_map: field_map?.unwrap_or(preset.field_map),
         })
     }
 
