@@ -20,6 +20,9 @@ pub fn render(renderer: &mut Renderer, view: &ViewPlan) -> Result<Frame, GpuErro
     let Renderer { gpu, pipelines, targets, scene, readback, max_tile, passes } = renderer;
     let scene =
         scene.as_mut().filter(|scene| fits(scene, view)).ok_or_else(|| GpuError::WrongScene(view.name.clone()))?;
+    if let Some(what) = view.not_finite {
+        return Err(GpuError::NotFinite { view: view.name.clone(), what });
+    }
     check_sizes(gpu, view)?;
     targets.keep(view.resources.iter().map(|r| r.texture));
     let max_tile = (*max_tile).min(gpu.max_texture);
@@ -84,7 +87,7 @@ impl Execution<'_> {
         }
         let names: BTreeMap<usize, &str> = products().map(|p| (p.index, p.pass.as_str())).collect();
 
-        self.scene.place(self.gpu, self.view.camera.position);
+        self.scene.place(self.gpu, self.view.camera.origin());
         for stage in &self.view.stages {
             for pass in &stage.passes {
                 self.pipelines.prepare(self.gpu, &pass.pipelines);
@@ -164,14 +167,14 @@ impl Execution<'_> {
             PassKind::ShadowMap { draw, light } => {
                 let planes = light_planes(light, camera.position);
                 let list = draws::gather(self.scene, &draw.objects, camera.position, &planes, false);
-                let uniform = light_view(light, camera.position);
+                let uniform = light_view(light, camera.origin());
                 let viewport = [0.0, 0.0, light.size as f32, light.size as f32];
                 self.draw(&list, &uniform, viewport, target(0).size, |drawing| {
                     shadow_map::encode(encoder, drawing, target(0));
                 });
             }
             PassKind::Shade { draw, sun, ambient, light } => {
-                let uniform = shade::light_uniform(camera.position, sun.as_ref(), *ambient, light.as_ref());
+                let uniform = shade::light_uniform(camera.origin(), sun.as_ref(), *ambient, light.as_ref());
                 let shadow_map = pass.reads.first().map(|id| &targets[id]);
                 let layouts = &self.pipelines.layouts;
                 let light = shade::light_group(self.gpu, layouts, &uniform, &self.scene.materials, shadow_map);

@@ -9,6 +9,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::demand::{Look, Output, OutputDemand, Shadows, Sun, ViewDemand};
+use super::finite::not_finite;
 use super::light::{self, LightFrame};
 use super::pass::{
     DrawSet, Encoding, Pass, PassKind, PipelineKey, Product, RenderPlan, ShadowFilter, Skipped, Stage, Surface,
@@ -51,6 +52,7 @@ impl<'a> ViewScheduler<'a> {
             name: view.name.clone(),
             camera: view.camera,
             far: far_distance(view, bounds),
+            not_finite: not_finite(view),
             resources: Vec::new(),
             stages: Vec::new(),
             skipped: Vec::new(),

@@ -30,7 +30,7 @@ pub struct LightUniform {
     ground: [f32; 4],
 }
 
-pub fn light_uniform(camera: DVec3, sun: Option<&Sun>, ambient: Ambient, light: Option<&LightFrame>) -> LightUniform {
+pub fn light_uniform(origin: DVec3, sun: Option<&Sun>, ambient: Ambient, light: Option<&LightFrame>) -> LightUniform {
     let vector = |v: DVec3, w: f64| v.extend(w).as_vec4().to_array();
     let color = |c: [f64; 3], w: f64| vector(DVec3::from_array(c), w);
     let (zenith, ground) = match ambient {
@@ -53,7 +53,7 @@ pub fn light_uniform(camera: DVec3, sun: Option<&Sun>, ambient: Ambient, light: 
     let range = light.high - light.low;
     let fade = (FADE_METRES + FADE_TEXELS * light.texel.max_element()) / range;
     LightUniform {
-        rows: light_rows(light, camera).map(|row| row.map(|c| c as f32)),
+        rows: light_rows(light, origin).map(|row| row.map(|c| c as f32)),
         u: vector(light.u, light.texel.x / range),
         v: vector(light.v, light.texel.y / range),
         sun: vector(direction, 1.0 / fade),

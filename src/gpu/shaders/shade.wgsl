@@ -7,7 +7,7 @@
 override GATHERS: u32 = 1u;
 
 struct Light {
-    // Rows of the map from camera-relative metres: texel column, texel row, depth (1 nearest to the sun).
+    // Rows of the map from metres about the origin: texel column, texel row, depth (1 nearest to the sun).
     texel_u: vec4<f32>,
     texel_v: vec4<f32>,
     depth: vec4<f32>,
@@ -54,7 +54,7 @@ const LEAST_COSINE: f32 = 0.005;
 
 @vertex
 fn vs_shade(vertex: Vertex) -> Corner {
-    let eye = select(vertex.position, view.forward.xyz, view.forward.w > 0.5);
+    let eye = select(vertex.position + view.to_origin.xyz, view.forward.xyz, view.forward.w > 0.5);
     let away = vertex.normal.w > 0.5 && dot(vertex.normal.xyz, eye) > 0.0;
     let normal = normalize(select(vertex.normal.xyz, -vertex.normal.xyz, away));
     let albedo = materials[vertex.material].rgb;
