@@ -4,6 +4,8 @@ use std::fmt::Write;
 
 use serde_json::{Value, json};
 
+use super::attribute::Attribute;
+use super::cost::Cost;
 use super::pass::{Pass, PassKind, PipelineKey, RenderPlan, ShadowFilter, Surface, ViewPlan};
 use super::resource::ResourceId;
 
@@ -46,22 +48,48 @@ pub fn text(plan: &RenderPlan) -> String {
         counts.textures,
         counts.pipelines
     );
+    let _ = writeln!(out, "vertices carry {} ({} bytes each)", attributes(plan).join(", "), vertex_bytes(plan));
+    let _ = writeln!(out, "predicted: {}", predicted(total(plan)));
     for view in &plan.views {
         let _ = writeln!(out, "view {} ({} x {})", view.name, view.camera.width, view.camera.height);
         for stage in &view.stages {
             for pass in &stage.passes {
                 let _ = writeln!(out, "  {:<11} {}", pass.kind.stem(), pass_line(view, pass));
+                let _ = writeln!(out, "              {}", predicted(pass.cost(view)));
             }
             for product in &stage.products {
                 let source = name(view, product.source);
                 let _ = writeln!(out, "    -> {} ({:?}) from {source}", product.pass, product.output);
             }
         }
+        if let Some(what) = view.not_finite {
+            let _ = writeln!(out, "  cannot be drawn: a number of {what} is not finite");
+        }
         for skipped in &view.skipped {
             let _ = writeln!(out, "  no {}: {}", skipped.what, skipped.reason);
         }
     }
     out
+}
+
+/// Names of what vertices carry.
+fn attributes(plan: &RenderPlan) -> Vec<&'static str> {
+    plan.attributes().into_iter().map(Attribute::name).collect()
+}
+
+fn vertex_bytes(plan: &RenderPlan) -> u64 {
+    plan.attributes().into_iter().map(Attribute::bytes).sum()
+}
+
+fn total(plan: &RenderPlan) -> Cost {
+    let costs = plan.views.iter().flat_map(|view| view.passes().map(move |pass| pass.cost(view)));
+    costs.fold(Cost::default(), |sum, cost| sum + cost)
+}
+
+fn predicted(cost: Cost) -> String {
+    let Cost { triangles, samples, texels, bytes } = cost;
+    let megabytes = bytes as f64 / 1e6;
+    format!("{triangles} triangles, {samples} samples, {texels} texels read, {megabytes:.1} MB moved")
 }
 
 fn pass_line(view: &ViewPlan, pass: &Pass) -> String {
@@ -95,6 +123,12 @@ pub fn json(plan: &RenderPlan) -> Value {
         "passes": counts.passes,
         "render_targets": counts.textures,
         "pipelines": counts.pipelines,
+        "attributes": attributes(plan),
+        "vertex_bytes": vertex_bytes(plan),
+        "triangles": counts.triangles,
+        "samples": total(plan).samples,
+        "texels": total(plan).texels,
+        "bytes": total(plan).bytes,
         "views": plan.views.iter().map(view_json).collect::<Vec<_>>(),
     })
 }
@@ -128,6 +162,9 @@ fn pass_json(view: &ViewPlan, pass: &Pass) -> Value {
         "writes": ids(&pass.writes),
         "pipelines": pass.pipelines.iter().map(|p| p.name()).collect::<Vec<_>>(),
     });
+    let cost = pass.cost(view);
+    value["predicted"] = json!({ "triangles": cost.triangles, "samples": cost.samples, "texels": cost.texels,
+                                 "bytes": cost.bytes });
     if let Some(draw) = pass.kind.draw() {
         value["state"] = format!("{:?}", draw.state).to_lowercase().into();
         value["objects"] = draw.objects.iter().filter(|&&o| o).count().into();

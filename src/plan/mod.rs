@@ -1,6 +1,8 @@
 //! Plan: what the recipe demands → which passes run, in which order, over which resources. No GPU here.
 
+pub mod attribute;
 pub mod change;
+pub mod cost;
 pub mod demand;
 pub mod dump;
 pub mod effects;

@@ -167,6 +167,10 @@ pub struct Counts {
     /// Render targets; the textures of materials are not among them.
     pub textures: usize,
     pub pipelines: usize,
+    /// Attributes of vertices.
+    pub attributes: usize,
+    /// Handed to passes, before what no camera or sun sees is left out.
+    pub triangles: u64,
 }
 
 impl RenderPlan {
@@ -175,6 +179,12 @@ impl RenderPlan {
         let passes = || self.views.iter().flat_map(ViewPlan::passes);
         let textures: BTreeSet<_> = self.views.iter().flat_map(|v| &v.resources).map(|r| r.texture).collect();
         let pipelines: BTreeSet<_> = passes().flat_map(|p| &p.pipelines).collect();
-        Counts { passes: passes().count(), textures: textures.len(), pipelines: pipelines.len() }
+        Counts {
+            passes: passes().count(),
+            textures: textures.len(),
+            pipelines: pipelines.len(),
+            attributes: self.attributes().len(),
+            triangles: passes().filter_map(|p| p.kind.draw()).map(|draw| draw.triangles).sum(),
+        }
     }
 }

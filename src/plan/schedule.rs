@@ -8,6 +8,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
+use super::attribute::Attribute;
 use super::demand::{Look, Output, OutputDemand, Shadows, Sun, ViewDemand};
 use super::finite::not_finite;
 use super::light::{self, LightFrame};
@@ -63,6 +64,7 @@ impl<'a> ViewScheduler<'a> {
     fn schedule(mut self) -> ViewPlan {
         self.colors();
         self.labels();
+        self.attributes();
         self.plan
     }
 
@@ -144,6 +146,21 @@ impl<'a> ViewScheduler<'a> {
         };
         let products = outputs.iter().map(|&i| self.product(i, color, Encoding::Color)).collect();
         self.plan.stages.push(Stage { tiled: true, passes: vec![shade, resolve], products });
+    }
+
+    /// Says which attributes of vertices no pass reads.
+    fn attributes(&mut self) {
+        let keys = self.plan.passes().flat_map(|pass| &pass.pipelines);
+        let read: std::collections::BTreeSet<Attribute> = keys.flat_map(|key| key.attributes()).copied().collect();
+        for attribute in Attribute::ALL.into_iter().filter(|a| !read.contains(a)) {
+            let reason = match attribute {
+                Attribute::Position => "nothing is drawn",
+                Attribute::Normal | Attribute::Material => "nothing is shaded",
+                Attribute::TextureCoordinates => "no pass sees a texture",
+                Attribute::Object => "no output asks for labels",
+            };
+            self.skip(attribute.name(), reason);
+        }
     }
 
     /// One pass of object numbers (or of depth alone) for each selection.

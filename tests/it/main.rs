@@ -3,6 +3,8 @@
 mod bad_input;
 mod compatibility;
 mod coverage;
+mod demand;
+mod determinism;
 mod diagnostics;
 mod golden;
 mod hard_cases;

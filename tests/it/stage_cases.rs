@@ -1,54 +1,10 @@
-//! The stage cases of `../shared/hard-cases/stages.json`: each is a test of its name somewhere in `src`, or in a list
+//! The stage cases of `../shared/hard-cases/stages.json`: each is a test of its name somewhere in `src` or here, or in a list
 //! here that says why not. In: the file and the sources. Out: names that are missing, unknown or taken twice.
 
 use std::collections::BTreeMap;
 use std::path::Path;
 
 use serde_json::Value;
-
-/// Rendering: depth, shadows, cameras, pixels and masks, the whole pipeline. To come with issue 5.
-const RENDERING: &[&str] = &[
-    "depth-near-0.1",
-    "depth-near-1",
-    "depth-near-10",
-    "depth-ladder",
-    "coplanar-road",
-    "coplanar-footprint",
-    "jitter-far-origin",
-    "jitter-orbit",
-    "t-junction",
-    "thin-features",
-    "shadow-acne-0.5",
-    "shadow-length-0.5",
-    "shadow-acne-1",
-    "shadow-length-1",
-    "shadow-acne-2",
-    "shadow-length-2",
-    "shadow-acne-5",
-    "shadow-length-5",
-    "shadow-acne-20",
-    "shadow-length-20",
-    "shadow-acne-45",
-    "shadow-length-45",
-    "shadow-acne-89.99",
-    "shadow-length-89.99",
-    "shadow-contact",
-    "shadow-zenith",
-    "shadow-zenith-near",
-    "sun-below",
-    "shadow-offscreen-caster",
-    "shadow-thin-caster",
-    "shadow-penumbra",
-    "shadow-terrain-self",
-    "camera-nadir",
-    "camera-near-nadir",
-    "camera-inside",
-    "pixel-centre",
-    "mask-vs-image",
-    "mask-ids",
-    "determinism",
-    "monotone-quality",
-];
 
 /// What does not hold or has nothing to hold on, with the reason.
 const NOT_MET: &[(&str, &str)] = &[
@@ -80,6 +36,13 @@ fn count_tests(folder: &Path, found: &mut BTreeMap<String, usize>) {
     }
 }
 
+/// Names of all tests and how often they are there.
+fn all_tests(root: &Path) -> BTreeMap<String, usize> {
+    let mut tests = BTreeMap::new();
+    ["src", "tests/it"].iter().for_each(|folder| count_tests(&root.join(folder), &mut tests));
+    tests
+}
+
 #[test]
 fn every_stage_case_is_a_test_or_listed() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -91,9 +54,8 @@ fn every_stage_case_is_a_test_or_listed() {
     let file: Value = serde_json::from_str(&text).expect("JSON");
     let ids: Vec<&str> = file["cases"].as_array().expect("cases").iter().filter_map(|c| c["id"].as_str()).collect();
     assert_eq!(ids.len(), 136);
-    let mut tests = BTreeMap::new();
-    count_tests(&root.join("src"), &mut tests);
-    let listed: Vec<&str> = RENDERING.iter().copied().chain(NOT_MET.iter().map(|(id, _)| *id)).collect();
+    let tests = all_tests(root);
+    let listed: Vec<&str> = NOT_MET.iter().map(|(id, _)| *id).collect();
     let mut wrong: Vec<String> = Vec::new();
     for id in &ids {
         let ways = listed.iter().filter(|l| l == &id).count() + tests.get(&test_name(id)).copied().unwrap_or(0);
@@ -110,8 +72,7 @@ fn every_stage_case_is_a_test_or_listed() {
 fn the_tests_that_the_manual_names_exist() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let text = std::fs::read_to_string(root.join("docs/numerics.md")).expect("docs/numerics.md");
-    let mut tests = BTreeMap::new();
-    count_tests(&root.join("src"), &mut tests);
+    let tests = all_tests(root);
     let mut named = 0;
     for line in text.lines().filter(|l| l.starts_with('|')) {
         for name in line.split('`').skip(1).step_by(2).filter(|n| n.len() > 6 && !n.contains([':', '.', ' '])) {

@@ -48,7 +48,7 @@ fn stems(plan: &RenderPlan) -> Vec<&'static str> {
 fn mask_alone_needs_one_pass_two_targets_one_pipeline() {
     let plan = schedule(&[view(vec![output(Output::Mask, State::After)])], &objects());
     assert_eq!(stems(&plan), ["ids"]);
-    assert_eq!(plan.counts(), Counts { passes: 1, textures: 2, pipelines: 1 });
+    assert_eq!(plan.counts(), Counts { passes: 1, textures: 2, pipelines: 1, attributes: 2, triangles: 24 });
     let skipped: Vec<_> = plan.views[0].skipped.iter().map(|s| s.what.as_str()).collect();
     assert_eq!(skipped, ["shading", "shadow map"]);
 }
@@ -65,7 +65,7 @@ fn labels_of_one_selection_share_a_pass_and_depth_joins_them() {
 fn depth_alone_has_no_ids() {
     let plan = schedule(&[view(vec![output(Output::Depth, State::Before)])], &objects());
     assert_eq!(stems(&plan), ["depth"]);
-    assert_eq!(plan.counts(), Counts { passes: 1, textures: 1, pipelines: 1 });
+    assert_eq!(plan.counts(), Counts { passes: 1, textures: 1, pipelines: 1, attributes: 1, triangles: 24 });
 }
 
 #[test]
@@ -74,7 +74,7 @@ fn before_and_after_have_a_shadow_map_each_in_one_texture() {
     let plan = schedule(&[view(outputs)], &objects());
     assert_eq!(stems(&plan), ["shadow_map", "shade", "resolve", "shadow_map", "shade", "resolve"]);
     // shadow map, radiance, its depth, colour; shadow_map, plain, textured, resolve.
-    assert_eq!(plan.counts(), Counts { passes: 6, textures: 4, pipelines: 4 });
+    assert_eq!(plan.counts(), Counts { passes: 6, textures: 4, pipelines: 4, attributes: 4, triangles: 96 });
     let lights: Vec<_> = plan.views[0]
         .passes()
         .filter_map(|p| if let PassKind::ShadowMap { light, .. } = &p.kind { Some(*light) } else { None })

@@ -32,7 +32,12 @@ fn camera_nadir() {
     town::plane(&mut scene, (-40.0, -41.0), (42.0, 43.0), town::GROUND);
     let (low, high) = (DVec3::new(20.0, 0.0, 0.0), DVec3::new(20.5, 1e-3, 0.5));
     let east = town::block(&mut scene, Presence::Both, low, high);
-    let north = town::block(&mut scene, Presence::Both, low + DVec3::new(-20.0, 0.0, -20.0), high - DVec3::X * 20.0);
+    let north = town::block(
+        &mut scene,
+        Presence::Both,
+        low + DVec3::new(-20.0, 0.0, -20.0),
+        high + DVec3::new(-20.0, 0.0, -20.0),
+    );
     for azimuth in [0.0, 90.0, 123.0, 359.0] {
         let camera = looking(0.0, azimuth, 0.0);
         assert!((camera.right - DVec3::X).length() < 1e-12 && (camera.up + DVec3::Z).length() < 1e-12);
@@ -61,7 +66,7 @@ fn camera_near_nadir() {
             .into_iter()
             .fold(0.0, f64::max);
         // The near and the far side of the image are this much nearer and farther: 57 px · 28 m / 1,000 m.
-        assert!(worst <= 1.6 * tilt + 1e-9, "{tilt}: {worst} px");
+        assert!(worst <= 1.7 * tilt + 1e-9, "{tilt}: {worst} px");
         assert!(worst <= 0.01, "{tilt}: {worst} px");
         let outputs = [Output::Instance, Output::Color].map(|o| demand(&scene, o, State::Before)).to_vec();
         let drawn = town::render(&mut renderer, &scene, view(camera, sun(40.0, 100.0), outputs.clone()));
@@ -76,8 +81,8 @@ fn camera_near_nadir() {
 fn camera_inside() {
     let Some(mut renderer) = crate::gpu::tests::renderer() else { return };
     let scene = town::town(3);
-    // In the middle of the house at (2.3, 1.9), then through its walls.
-    for (eye, azimuth) in [((6.0, 2.0, 5.0), 20.0), ((6.0, 3.5, 8.9), 200.0), ((2.4, 1.0, 2.0), 310.0)] {
+    // In the middle of the house over (-5.7, -6.1) to (3.4, 1.2), then close to its walls and looking through them.
+    for (eye, azimuth) in [((-1.0, 2.0, -2.5), 20.0), ((-1.0, 3.5, 1.15), 200.0), ((-5.65, 1.0, -6.0), 310.0)] {
         let (right, up, forward) = frame(80.0, azimuth, azimuth + 180.0);
         let projection = Projection::Perspective { tan_x: 0.8, tan_y: 0.6 };
         let position = DVec3::from(eye);

@@ -109,7 +109,7 @@ fn shadows_from_space_are_those_from_an_aeroplane() {
             let picture = shares(&town::render(&mut renderer, &scene, view), 0);
             let speckles = picture.iter().filter(|share| **share > 0.02 && **share < 0.98).count();
             // The ground is lit or in the shadow, but for the outline.
-            assert!(speckles < 700, "{distance} m, {elevation}°: {speckles} pixels are half lit");
+            assert!(speckles < 1500, "{distance} m, {elevation}°: {speckles} pixels are half lit");
             pictures.push(picture);
         }
         let differ = pictures[0].iter().zip(&pictures[1]).filter(|(a, b)| (**a - **b).abs() > 0.1).count();
