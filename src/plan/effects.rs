@@ -101,7 +101,7 @@ pub struct GroundState {
     pub around: Arc<[(DVec2, f64)]>,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum GroundKind {
     /// Grey, dull, with soft borders.
     Ash,
