@@ -13,7 +13,9 @@ mod passes;
 mod pipelines;
 mod pools;
 mod readback;
+mod source;
 mod tiles;
+mod timing;
 mod upload;
 
 use crate::frame::Frame;
@@ -49,6 +51,7 @@ pub struct Renderer {
     readback: readback::Readback,
     max_tile: u32,
     passes: usize,
+    stopwatch: timing::Stopwatch,
 }
 
 impl Renderer {
@@ -57,8 +60,8 @@ impl Renderer {
         let gpu = device::Gpu::open()?;
         let pipelines = pipelines::Pipelines::new(&gpu);
         let (targets, readback) = (pools::TargetPool::default(), readback::Readback::default());
-        let max_tile = tiles::TILE_SAMPLES;
-        Ok(Renderer { gpu, pipelines, targets, scene: None, readback, max_tile, passes: 0 })
+        let (max_tile, stopwatch) = (tiles::TILE_SAMPLES, timing::Stopwatch::default());
+        Ok(Renderer { gpu, pipelines, targets, scene: None, readback, max_tile, passes: 0, stopwatch })
     }
 
     /// Name and driver, for the manifest.
@@ -70,6 +73,17 @@ impl Renderer {
     pub fn set_tile(&mut self, samples: u32) {
         self.max_tile = samples.max(16);
         self.targets = pools::TargetPool::default();
+    }
+
+    /// Whether passes are timed from now on; that waits for the device more often. Off at first.
+    pub fn set_timed(&mut self, timed: bool) {
+        self.stopwatch.set(timed);
+    }
+
+    /// Word of each kind of pass in the view rendered last, in the order of their first runs, with the seconds that all
+    /// runs took: by the clock of the device if it has one, by ours otherwise. Empty unless timed.
+    pub fn timings(&self) -> &[(String, f64)] {
+        &self.stopwatch.times
     }
 
     /// Puts a scene on the device, in place of any other. Objects of both states are there once.

@@ -2,7 +2,7 @@
 //!
 //! Attributes go to the device once; positions are written anew for each camera, relative to it (see [`GpuScene::place`]).
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -13,6 +13,7 @@ use super::mipmaps::{self, linear_from_srgb};
 use crate::interpreter::material::{MapTransform, Material};
 use crate::plan::pass::Surface;
 use crate::plan::summary::material_surfaces;
+use crate::scene::reflectance::near_infrared_gain;
 use crate::scene::{Scene, SceneClass, SceneObject};
 
 /// What a vertex carries besides its position.
@@ -61,11 +62,12 @@ impl GpuScene {
             scene.textures.binary_search_by(|(other, _)| other.cmp(name)).ok()
         };
         let (mut world, mut attributes) = (Vec::new(), Vec::<Attributes>::new());
+        let mut numbers = MaterialNumbers::default();
         let (mut chunks, mut indices) = (Vec::new(), Vec::new());
         for (number, object) in scene.objects.iter().enumerate() {
             let base = world.len() as u32;
             world.extend_from_slice(&object.mesh.positions);
-            push_attributes(&mut attributes, number, object, &scene.materials);
+            push_attributes(&mut attributes, number, object, &scene.materials, &mut numbers);
             for group in object.mesh.groups.iter().filter(|g| g.count > 0) {
                 let material = group.material as usize;
                 let Some(surface) = surfaces[material] else { continue };
@@ -76,8 +78,13 @@ impl GpuScene {
                 chunks.push(Chunk { object: number, surface, texture, indices: start..indices.len() });
             }
         }
+        let color = |&(class, material): &(SceneClass, u32)| {
+            let material = &scene.materials[material as usize];
+            let [r, g, b] = material.color.map(|c| linear_from_srgb(c.clamp(0.0, 1.0)) as f32);
+            [r, g, b, near_infrared_gain(class, material) as f32]
+        };
+        let materials: Vec<[f32; 4]> = numbers.order.iter().map(color).collect();
         chunks.sort_by_key(|c| (layer(scene.objects[c.object].class), c.surface, c.texture, c.object));
-        let materials: Vec<[f32; 4]> = scene.materials.iter().map(|m| linear_color(m.color)).collect();
         let empty_positions = vec![0u8; world.len() * 12];
         GpuScene {
             chunks,
@@ -143,7 +150,29 @@ fn layer(class: SceneClass) -> u8 {
     }
 }
 
-fn push_attributes(attributes: &mut Vec<Attributes>, number: usize, object: &SceneObject, materials: &[Arc<Material>]) {
+/// Numbers of the materials as the device sees them: what one reflects depends on the class of its object, too.
+#[derive(Default)]
+struct MaterialNumbers {
+    numbers: BTreeMap<(SceneClass, u32), u32>,
+    order: Vec<(SceneClass, u32)>,
+}
+
+impl MaterialNumbers {
+    fn number(&mut self, class: SceneClass, material: u32) -> u32 {
+        *self.numbers.entry((class, material)).or_insert_with(|| {
+            self.order.push((class, material));
+            self.order.len() as u32 - 1
+        })
+    }
+}
+
+fn push_attributes(
+    attributes: &mut Vec<Attributes>,
+    number: usize,
+    object: &SceneObject,
+    materials: &[Arc<Material>],
+    numbers: &mut MaterialNumbers,
+) {
     let mesh = &object.mesh;
     let start = attributes.len();
     // Ground layers are seen from above alone; walls of ruins and open roofs from both sides.
@@ -156,8 +185,9 @@ fn push_attributes(attributes: &mut Vec<Attributes>, number: usize, object: &Sce
     }));
     for group in &mesh.groups {
         let triangles = mesh.triangles.iter().skip(group.first as usize).take(group.count as usize);
+        let material = numbers.number(object.class, group.material);
         for &vertex in triangles.clone().flatten() {
-            attributes[start + vertex as usize].material = group.material;
+            attributes[start + vertex as usize].material = material;
         }
         let transform = materials[group.material as usize].colormap_transform;
         if transform != MapTransform::IDENTITY {
@@ -175,9 +205,4 @@ fn bounds(object: &SceneObject) -> Option<(DVec3, DVec3)> {
     let mut positions = object.mesh.positions.iter().copied();
     let first = positions.next()?;
     Some(positions.fold((first, first), |(low, high), p| (low.min(p), high.max(p))))
-}
-
-fn linear_color(srgb: [f64; 3]) -> [f32; 4] {
-    let [r, g, b] = srgb.map(|c| linear_from_srgb(c.clamp(0.0, 1.0)) as f32);
-    [r, g, b, 1.0]
 }

@@ -173,6 +173,11 @@ pub enum Bands {
     FalseColor(NirLight),
 }
 
+/// Weights of linear red, green and blue in luminance (Rec. 709).
+pub const LUMINANCE: [f64; 3] = [0.2126, 0.7152, 0.0722];
+/// No surface has a greater near-infrared albedo.
+pub const MOST_INFRARED: f64 = 0.95;
+
 impl Bands {
     /// The three channels of an image from radiance in red, green, blue and near infrared.
     pub fn of(self, [r, g, b, n]: [f64; 4]) -> [f64; 3] {

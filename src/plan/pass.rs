@@ -25,13 +25,27 @@ pub enum Surface {
 /// One pipeline to compile.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum PipelineKey {
-    ShadowMap { cutout: bool },
+    ShadowMap {
+        cutout: bool,
+    },
     /// The first reads the shadow map, the others halve.
-    ShadowBounds { first: bool },
-    Shade { surface: Surface, terms: Terms },
-    Resolve { supersample: u32, linear: bool },
-    Ids { cutout: bool },
-    Depth { cutout: bool },
+    ShadowBounds {
+        first: bool,
+    },
+    Shade {
+        surface: Surface,
+        terms: Terms,
+    },
+    Resolve {
+        supersample: u32,
+        linear: bool,
+    },
+    Ids {
+        cutout: bool,
+    },
+    Depth {
+        cutout: bool,
+    },
 }
 
 /// Objects that a pass draws: one flag per object, the selected ones that have a visible surface.

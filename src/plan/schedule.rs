@@ -85,8 +85,7 @@ impl<'a> ViewScheduler<'a> {
         let format = if linear { Format::Linear32 } else { Format::Srgb8 };
         let color = self.resource("resolve", format, self.size(), 1, true);
         let terms = light.terms();
-        let pipelines =
-            self.surfaces(&draw).into_iter().map(|surface| PipelineKey::Shade { surface, terms }).collect();
+        let pipelines = self.surfaces(&draw).into_iter().map(|surface| PipelineKey::Shade { surface, terms }).collect();
         let reads = light.reads();
         let kind = PassKind::Shade { draw, light: Box::new(light) };
         let shade = Pass { kind, reads, writes: vec![radiance, depth], pipelines };

@@ -191,11 +191,7 @@ impl ViewScheduler<'_> {
     }
 
     /// The map of what lies on the ground around the changed features in view.
-    fn ground(
-        &mut self,
-        look: &Look,
-        maps: &mut Maps,
-    ) -> Option<(GroundKind, FieldLook)> {
+    fn ground(&mut self, look: &Look, maps: &mut Maps) -> Option<(GroundKind, FieldLook)> {
         let Some(ground) = look.ground.clone().filter(|ground| ground.strength > 0.0) else {
             self.skip("state of the ground", "not asked for");
             return None;
