@@ -25,6 +25,9 @@ pub fn render(renderer: &mut Renderer, view: &ViewPlan) -> Result<Frame, GpuErro
     stopwatch.start_view();
     let scene =
         scene.as_mut().filter(|scene| fits(scene, view)).ok_or_else(|| GpuError::WrongScene(view.name.clone()))?;
+    if let Some(what) = view.not_finite {
+        return Err(GpuError::NotFinite { view: view.name.clone(), what });
+    }
     check_sizes(gpu, view)?;
     targets.keep(view.resources.iter().map(|r| r.texture));
     let max_tile = (*max_tile).min(gpu.max_texture);
@@ -90,7 +93,7 @@ impl Execution<'_> {
         }
         let names: BTreeMap<usize, &str> = products().map(|p| (p.index, p.pass.as_str())).collect();
 
-        self.scene.place(self.gpu, self.view.camera.position);
+        self.scene.place(self.gpu, self.view.camera.origin());
         for stage in &self.view.stages {
             for pass in &stage.passes {
                 self.pipelines.prepare(self.gpu, &pass.pipelines);
@@ -192,7 +195,7 @@ impl Execution<'_> {
             PassKind::Shade { draw, light } => {
                 let terms = light.terms();
                 let lit = Lit {
-                    camera: &self.view.camera,
+                    origin: self.view.camera.origin(),
                     light,
                     side: supersample,
                     materials: &self.scene.materials,
@@ -221,10 +224,10 @@ impl Execution<'_> {
 
     /// Draws what a map of depth shows of a selection.
     fn draw_from(&self, light: &LightFrame, draw: &DrawSet, encode: impl FnOnce(&Drawing)) {
-        let eye = self.view.camera.position;
+        let (eye, origin) = (self.view.camera.position, self.view.camera.origin());
         let list = draws::gather(self.scene, &draw.objects, eye, &light_planes(light, eye), false);
         let viewport = [0.0, 0.0, light.size as f32, light.size as f32];
-        self.draw(&list, &light_view(light, eye), viewport, (light.size, light.size), encode);
+        self.draw(&list, &light_view(light, origin), viewport, (light.size, light.size), encode);
     }
 
     /// Draws what a tile shows of a selection; textures matter `by_texture`, or only where they have holes.

@@ -172,7 +172,7 @@ fn distance(view: &ViewPlan, depth: f32) -> f32 {
         return f32::INFINITY;
     }
     match view.camera.projection {
-        Projection::Perspective { .. } => (near / f64::from(depth)) as f32,
+        Projection::Perspective { .. } => (near * far / (near + f64::from(depth) * (far - near))) as f32,
         Projection::Orthographic { .. } => (far - f64::from(depth) * (far - near)) as f32,
     }
 }

@@ -3,6 +3,7 @@
 
 mod coverage;
 mod economy;
+mod hard;
 mod lighting;
 mod shaders;
 mod tiling;

@@ -5,6 +5,7 @@ pub mod demand;
 pub mod dump;
 pub mod effects;
 pub mod field;
+mod finite;
 pub mod light;
 pub mod pass;
 pub mod resource;

@@ -159,8 +159,10 @@ pub struct Skipped {
 pub struct ViewPlan {
     pub name: String,
     pub camera: Camera,
-    /// Farthest distance along the viewing direction, metres; orthographic depth runs from it to `camera.near`.
+    /// Distance of the far plane along the viewing direction, metres: depth runs from it (0) to `camera.near` (1).
     pub far: f64,
+    /// What of the demand has a number that is not finite: renderers refuse such a plan.
+    pub not_finite: Option<&'static str>,
     pub resources: Vec<Resource>,
     pub stages: Vec<Stage>,
     pub skipped: Vec<Skipped>,

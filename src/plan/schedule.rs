@@ -9,6 +9,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::demand::{Look, Output, OutputDemand, Sun, ViewDemand};
+use super::finite::not_finite;
 use super::light;
 use super::pass::{
     DrawSet, Encoding, Pass, PassKind, PipelineKey, Product, RenderPlan, Skipped, Stage, Surface, ViewPlan,
@@ -49,6 +50,7 @@ impl<'a> ViewScheduler<'a> {
             name: view.name.clone(),
             camera: view.camera,
             far: far_distance(view, bounds),
+            not_finite: not_finite(view),
             resources: Vec::new(),
             stages: Vec::new(),
             skipped: Vec::new(),

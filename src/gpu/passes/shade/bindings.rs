@@ -3,11 +3,12 @@
 
 use std::collections::BTreeMap;
 
+use glam::DVec3;
+
 use super::uniforms::{self, CloudsUniform, DiscUniform, HazeUniform, LampUniform, ShadowUniform};
 use crate::gpu::device::Gpu;
 use crate::gpu::pipelines::Layouts;
 use crate::gpu::pools::Target;
-use crate::plan::demand::Camera;
 use crate::plan::resource::ResourceId;
 use crate::plan::shading::{Illumination, ShadowFilter, Terms};
 
@@ -59,7 +60,8 @@ fn entries(terms: Terms) -> Vec<wgpu::BindGroupLayoutEntry> {
 
 /// A light and where its maps are.
 pub struct Lit<'a> {
-    pub camera: &'a Camera,
+    /// About which positions are kept.
+    pub origin: DVec3,
     pub light: &'a Illumination,
     /// Samples per pixel side.
     pub side: u32,
@@ -95,13 +97,12 @@ pub fn group(gpu: &Gpu, layouts: &Layouts, layout: &wgpu::BindGroupLayout, lit: 
 }
 
 fn bound<'a>(gpu: &Gpu, layouts: &'a Layouts, lit: &Lit) -> Vec<(u32, Bound<'a>)> {
-    let Lit { camera, light, side, materials, targets } = *lit;
-    let eye = camera.position;
+    let Lit { origin, light, side, materials, targets } = *lit;
     let view = |id: ResourceId| Bound::View(targets[&id].view.clone());
     let lamp = gpu.uniform("lamp", &LampUniform::new(light));
     let mut bound = vec![(0, Bound::Buffer(lamp)), (1, Bound::Buffer(materials.clone()))];
     if let Some(shadow) = &light.shadow {
-        let uniform = gpu.uniform("shadow", &ShadowUniform::new(eye, &shadow.frame));
+        let uniform = gpu.uniform("shadow", &ShadowUniform::new(origin, &shadow.frame));
         bound.extend([
             (2, Bound::Buffer(uniform)),
             (3, view(shadow.map)),
@@ -109,26 +110,26 @@ fn bound<'a>(gpu: &Gpu, layouts: &'a Layouts, lit: &Lit) -> Vec<(u32, Bound<'a>)
         ]);
         if let Some(soft) = &shadow.soft {
             let disc = light.sun.map_or(0.0, |sun| sun.disc_deg);
-            let uniform = gpu.uniform("disc", &DiscUniform::new(eye, &shadow.frame, soft, disc));
+            let uniform = gpu.uniform("disc", &DiscUniform::new(origin, &shadow.frame, soft, disc));
             bound.extend([(5, Bound::Buffer(uniform)), (6, view(soft.bounds))]);
         }
     }
     if let Some(look) = &light.sky {
-        let views = gpu.buffer("sky", &uniforms::sky(eye, look, side), wgpu::BufferUsages::STORAGE);
+        let views = gpu.buffer("sky", &uniforms::sky(origin, look, side), wgpu::BufferUsages::STORAGE);
         let maps = Bound::View(targets[&look.maps].layers());
         bound.extend([(7, Bound::Buffer(views)), (8, maps), (9, Bound::Sampler(&layouts.gather_sampler))]);
     }
     if let Some(haze) = &light.haze {
-        bound.push((10, Bound::Buffer(gpu.uniform("haze", &HazeUniform::new(eye, haze, light)))));
+        bound.push((10, Bound::Buffer(gpu.uniform("haze", &HazeUniform::new(origin, haze, light)))));
     }
     let clouds = [(13, light.cloud_shadow), (14, light.cloud_cover)];
     if clouds.iter().any(|(_, look)| look.is_some()) {
-        let uniform = gpu.uniform("clouds", &CloudsUniform::new(eye, light));
+        let uniform = gpu.uniform("clouds", &CloudsUniform::new(origin, light));
         bound.extend([(11, Bound::Buffer(uniform)), (12, Bound::Sampler(&layouts.linear_sampler))]);
         bound.extend(clouds.into_iter().filter_map(|(binding, look)| Some((binding, view(look?.map)))));
     }
     if let Some((_, look)) = &light.ground {
-        let uniform = gpu.uniform("ground", &uniforms::field_row(eye, &look.frame));
+        let uniform = gpu.uniform("ground", &uniforms::field_row(origin, &look.frame));
         let sampler = Bound::Sampler(&layouts.linear_sampler);
         bound.extend([(15, Bound::Buffer(uniform)), (16, sampler), (17, view(look.map))]);
     }

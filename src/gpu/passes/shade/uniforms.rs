@@ -1,4 +1,4 @@
-//! Uniforms of shading: light in world metres (f64) → numbers relative to the camera, as the parts of `shaders/shade`
+//! Uniforms of shading: light in world metres (f64) → numbers about the origin, as the parts of `shaders/shade`
 //! name them.
 
 use bytemuck::{Pod, Zeroable};
@@ -79,10 +79,10 @@ pub struct ShadowUniform {
 }
 
 impl ShadowUniform {
-    pub fn new(camera: DVec3, light: &LightFrame) -> ShadowUniform {
+    pub fn new(origin: DVec3, light: &LightFrame) -> ShadowUniform {
         let range = light.high - light.low;
         ShadowUniform {
-            rows: light_rows(light, camera).map(numbers),
+            rows: light_rows(light, origin).map(numbers),
             u: vector(light.u, light.texel.x / range),
             v: vector(light.v, light.texel.y / range),
             fade: (1.0 / fade(light)) as f32,
@@ -107,11 +107,11 @@ pub struct DiscUniform {
 }
 
 impl DiscUniform {
-    pub fn new(camera: DVec3, light: &LightFrame, soft: &SoftLook, disc_deg: f64) -> DiscUniform {
+    pub fn new(origin: DVec3, light: &LightFrame, soft: &SoftLook, disc_deg: f64) -> DiscUniform {
         let radius = libm::tan((disc_deg / 2.0).to_radians());
         DiscUniform {
             spread: [radius / light.texel.x, radius / light.texel.y].map(|s| s as f32),
-            lift: (camera.y - light.anchor.y) as f32,
+            lift: (origin.y - light.anchor.y) as f32,
             top: (soft.top - light.anchor.y) as f32,
             rise: [light.u.y * light.texel.x, light.v.y * light.texel.y].map(|r| r as f32),
             climb: light.direction.y as f32,
@@ -134,13 +134,13 @@ struct SkyView {
 }
 
 /// `Sky` of `sky.wgsl`.
-pub fn sky(camera: DVec3, look: &SkyLook, side: u32) -> Vec<u8> {
+pub fn sky(origin: DVec3, look: &SkyLook, side: u32) -> Vec<u8> {
     let size = look.frames.first().map_or(1, |frame| frame.size);
     let view = |light: &LightFrame| {
         let range = light.high - light.low;
         let [x, y] = light.texel.to_array().map(|t| t * t / range);
         SkyView {
-            rows: light_rows(light, camera).map(numbers),
+            rows: light_rows(light, origin).map(numbers),
             towards: vector(light.direction, 1.0 / light.direction.y),
             scale: numbers([x, y, 1.0 / fade(light), 0.0]),
         }
@@ -157,28 +157,28 @@ pub fn sky(camera: DVec3, look: &SkyLook, side: u32) -> Vec<u8> {
 pub struct HazeUniform {
     extinction: [f32; 4],
     airlight: [f32; 4],
-    eye: f32,
+    base: f32,
     thinning: f32,
     unused: [f32; 2],
 }
 
 impl HazeUniform {
-    pub fn new(camera: DVec3, haze: &Haze, light: &Illumination) -> HazeUniform {
+    pub fn new(origin: DVec3, haze: &Haze, light: &Illumination) -> HazeUniform {
         let infrared = light.bands.near_infrared();
         HazeUniform {
             extinction: with(haze.extinction, infrared.map(|n| n.extinction)),
             airlight: with(haze.airlight, infrared.map(|n| n.airlight)),
-            eye: (camera.y - haze.base) as f32,
+            base: (origin.y - haze.base) as f32,
             thinning: (1.0 / haze.scale_height) as f32,
             unused: [0.0; 2],
         }
     }
 }
 
-/// Scale and offset from camera-relative (x, z) to a field's map.
-pub fn field_row(camera: DVec3, frame: &FieldFrame) -> [f32; 4] {
+/// Scale and offset from metres about the origin (x, z) to a field's map.
+pub fn field_row(origin: DVec3, frame: &FieldFrame) -> [f32; 4] {
     let scale = 1.0 / (frame.high - frame.low);
-    let offset = [(camera.x - frame.low.x) * scale.x, (-camera.z - frame.low.y) * scale.y];
+    let offset = [(origin.x - frame.low.x) * scale.x, (-origin.z - frame.low.y) * scale.y];
     numbers([scale.x, -scale.y, offset[0], offset[1]])
 }
 
@@ -194,14 +194,14 @@ pub struct CloudsUniform {
 }
 
 impl CloudsUniform {
-    pub fn new(camera: DVec3, light: &Illumination) -> CloudsUniform {
-        let row = |look: Option<FieldLook>| look.map_or([0.0; 4], |look| field_row(camera, &look.frame));
+    pub fn new(origin: DVec3, light: &Illumination) -> CloudsUniform {
+        let row = |look: Option<FieldLook>| look.map_or([0.0; 4], |look| field_row(origin, &look.frame));
         let (color, height) = light.clouds.map_or(([0.0; 3], 0.0), |clouds| (clouds.color, clouds.height));
         CloudsUniform {
             shadow: row(light.cloud_shadow),
             cover: row(light.cloud_cover),
             color: numbers(with_red_as_infrared(color)),
-            height: (height - camera.y) as f32,
+            height: (height - origin.y) as f32,
             unused: [0.0; 3],
         }
     }

@@ -1,11 +1,11 @@
 // Clouds: one layer without thickness, between the ground and the sun, and between the ground and the camera.
 
 struct Clouds {
-    // From camera-relative metres (x, z) to the maps: xy scale, zw offset.
+    // From metres about the origin (x, z) to the maps: xy scale, zw offset.
     shadow: vec4<f32>,
     cover: vec4<f32>,
     color: vec4<f32>,
-    // Height of the layer above the camera, metres.
+    // Height of the layer above the origin, metres.
     height: f32,
     unused0: f32,
     unused1: f32,

@@ -1,7 +1,7 @@
 // Ground: ash or puddles on what looks up.
 
 struct Ground {
-    // From camera-relative metres (x, z) to the map: xy scale, zw offset.
+    // From metres about the origin (x, z) to the map: xy scale, zw offset.
     frame: vec4<f32>,
 };
 

@@ -51,7 +51,7 @@ struct Corner {
     @location(5) height: f32,
 #endif
 #if place
-    // Metres from the camera.
+    // Metres about the origin.
     @location(6) place: vec3<f32>,
 #endif
 #if normal
@@ -80,7 +80,7 @@ fn to_light(value: vec4<f32>) -> Light {
 
 @vertex
 fn vs_shade(vertex: Vertex) -> Corner {
-    let eye = select(vertex.position, view.forward.xyz, view.forward.w > 0.5);
+    let eye = select(vertex.position + view.to_origin.xyz, view.forward.xyz, view.forward.w > 0.5);
     let away = vertex.normal.w > 0.5 && dot(vertex.normal.xyz, eye) > 0.0;
     let normal = normalize(select(vertex.normal.xyz, -vertex.normal.xyz, away));
     let material = materials[vertex.material];

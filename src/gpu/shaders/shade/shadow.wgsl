@@ -1,7 +1,7 @@
 // Shadow: which share of the sun's light the shadow map leaves.
 
 struct Shadow {
-    // Rows of the map from camera-relative metres: texel column, texel row, depth (1 nearest to the sun).
+    // Rows of the map from metres about the origin: texel column, texel row, depth (1 nearest to the sun).
     texel_u: vec4<f32>,
     texel_v: vec4<f32>,
     depth: vec4<f32>,

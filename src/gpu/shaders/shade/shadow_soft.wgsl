@@ -5,7 +5,7 @@
 struct Disc {
     // Texels per metre of distance of the disc's radius along the map's axes.
     spread: vec2<f32>,
-    // From camera-relative to the bounds' heights, and the scene's top in these.
+    // From positions to the bounds' heights, and the scene's top in these.
     lift: f32,
     top: f32,
     // Change of height per texel across the light, and of height per metre towards the sun.

@@ -2,7 +2,7 @@
 // weights are normalised, so that an open surface of any slope sees all of it.
 
 struct SkyView {
-    // Rows of the map from camera-relative metres: texel column, texel row, depth (1 nearest to the sky).
+    // Rows of the map from metres about the origin: texel column, texel row, depth (1 nearest to the sky).
     texel_u: vec4<f32>,
     texel_v: vec4<f32>,
     depth: vec4<f32>,
