@@ -15,11 +15,17 @@ mod passes;
 mod pipelines;
 mod pools;
 mod readback;
+mod source;
+mod streams;
 mod tiles;
+mod timing;
 mod upload;
 
+use std::collections::BTreeSet;
+
 use crate::frame::Frame;
-use crate::plan::{Counts, ViewPlan};
+use crate::plan::attribute::Attribute;
+use crate::plan::{Counts, RenderPlan, ViewPlan};
 use crate::scene::Scene;
 
 pub use device::Adapter;
@@ -55,6 +61,9 @@ pub struct Renderer {
     readback: readback::Readback,
     max_tile: u32,
     passes: usize,
+    triangles: u64,
+    drawn: u64,
+    stopwatch: timing::Stopwatch,
 }
 
 impl Renderer {
@@ -63,8 +72,19 @@ impl Renderer {
         let gpu = device::Gpu::open()?;
         let pipelines = pipelines::Pipelines::new(&gpu);
         let (targets, readback) = (pools::TargetPool::default(), readback::Readback::default());
-        let max_tile = tiles::TILE_SAMPLES;
-        Ok(Renderer { gpu, pipelines, targets, scene: None, readback, max_tile, passes: 0 })
+        let (max_tile, stopwatch) = (tiles::TILE_SAMPLES, timing::Stopwatch::default());
+        Ok(Renderer {
+            gpu,
+            pipelines,
+            targets,
+            scene: None,
+            readback,
+            max_tile,
+            passes: 0,
+            triangles: 0,
+            drawn: 0,
+            stopwatch,
+        })
     }
 
     /// Name and driver, for the manifest.
@@ -78,11 +98,31 @@ impl Renderer {
         self.targets = pools::TargetPool::default();
     }
 
-    /// Puts a scene on the device, in place of any other. Objects of both states are there once.
+    /// Whether passes are timed from now on; that waits for the device more often. Off at first.
+    pub fn set_timed(&mut self, timed: bool) {
+        self.stopwatch.set(timed);
+    }
+
+    /// Word of each kind of pass in the view rendered last, in the order of their first runs, with the seconds that all
+    /// runs took: by the clock of the device if it has one, by ours otherwise. Empty unless timed.
+    pub fn timings(&self) -> &[(String, f64)] {
+        &self.stopwatch.times
+    }
+
+    /// Puts a scene on the device, in place of any other, ready for any plan. Objects of both states are there once.
     pub fn upload(&mut self, scene: &Scene) -> Result<(), GpuError> {
+        self.upload_attributes(scene, &Attribute::ALL.into_iter().collect())
+    }
+
+    /// The same with no more attributes than a plan reads.
+    pub fn upload_for(&mut self, scene: &Scene, plan: &RenderPlan) -> Result<(), GpuError> {
+        self.upload_attributes(scene, &plan.attributes())
+    }
+
+    fn upload_attributes(&mut self, scene: &Scene, wanted: &BTreeSet<Attribute>) -> Result<(), GpuError> {
         self.scene = None;
         upload::check(scene)?;
-        let uploaded = self.gpu.checked("uploading the scene", || upload::GpuScene::new(&self.gpu, scene))?;
+        let uploaded = self.gpu.checked("uploading the scene", || upload::GpuScene::new(&self.gpu, scene, wanted))?;
         self.scene = Some(uploaded);
         Ok(())
     }
@@ -92,9 +132,21 @@ impl Renderer {
         execute::render(self, view)
     }
 
-    /// What has been made so far: passes run (tiles of a pass count once), render targets and pipelines created.
+    /// What has been made so far: passes run (tiles of a pass count once) and the triangles handed to them, render
+    /// targets and pipelines created, and attributes of the present scene.
     pub fn created(&self) -> Counts {
-        Counts { passes: self.passes, textures: self.targets.created(), pipelines: self.pipelines.created() }
+        Counts {
+            passes: self.passes,
+            textures: self.targets.created(),
+            pipelines: self.pipelines.created(),
+            attributes: self.scene.as_ref().map_or(0, upload::GpuScene::attributes),
+            triangles: self.triangles,
+        }
+    }
+
+    /// Triangles drawn so far, without those of objects that no camera, tile or sun sees.
+    pub fn drawn(&self) -> u64 {
+        self.drawn
     }
 }
 

@@ -3,6 +3,7 @@
 
 mod coverage;
 mod economy;
+mod effects;
 mod hard;
 mod lighting;
 mod shaders;

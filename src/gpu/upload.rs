@@ -1,6 +1,6 @@
 //! Upload: the scene's meshes as vertex buffers, its materials and textures; each object once.
 //!
-//! Attributes go to the device once; positions are written anew for each camera, about its origin (see [`GpuScene::place`]).
+//! Other attributes go to the device once, when a pass first reads them; positions are written anew for each camera, about its origin (see [`GpuScene::place`]).
 
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -12,21 +12,12 @@ use super::GpuError;
 use super::device::Gpu;
 use super::junctions;
 use super::mipmaps::{self, linear_from_srgb};
-use crate::interpreter::material::{MapTransform, Material};
+use super::streams::{Builder, Streams};
+use crate::plan::attribute::Attribute;
 use crate::plan::pass::Surface;
 use crate::plan::summary::material_surfaces;
-use crate::scene::{Scene, SceneClass, SceneObject, TriMesh};
-
-/// What a vertex carries besides its position.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
-pub struct Attributes {
-    /// Signed 16-bit fractions; the last is 1 where both sides may be seen.
-    pub normal: [i16; 4],
-    pub uv: [f32; 2],
-    pub object: u32,
-    pub material: u32,
-}
+use crate::scene::reflectance::near_infrared_gain;
+use crate::scene::{Scene, SceneClass, SceneObject};
 
 /// Triangles of one object with one surface.
 #[derive(Clone, Debug)]
@@ -45,7 +36,7 @@ pub struct GpuScene {
     pub indices: Vec<u32>,
     /// Least and greatest corner of each object.
     pub bounds: Vec<Option<(DVec3, DVec3)>>,
-    pub attributes: wgpu::Buffer,
+    pub streams: Streams,
     pub positions: wgpu::Buffer,
     pub materials: wgpu::Buffer,
     textures: Vec<Arc<image::RgbaImage>>,
@@ -56,19 +47,21 @@ pub struct GpuScene {
 }
 
 impl GpuScene {
-    pub fn new(gpu: &Gpu, scene: &Scene) -> GpuScene {
+    /// With the attributes that will be read; positions are always there.
+    pub fn new(gpu: &Gpu, scene: &Scene, wanted: &BTreeSet<Attribute>) -> GpuScene {
         let surfaces = material_surfaces(scene);
         let texture_of = |m: usize| {
             let name = scene.materials[m].colormap.as_ref()?;
             scene.textures.binary_search_by(|(other, _)| other.cmp(name)).ok()
         };
-        let (mut world, mut attributes) = (Vec::new(), Vec::<Attributes>::new());
+        let mut world = Vec::new();
+        let mut builder = Builder::new(wanted, &scene.materials);
         let (mut chunks, mut indices) = (Vec::new(), Vec::new());
         for (number, object) in scene.objects.iter().enumerate() {
             let mesh = junctions::conforming(&object.mesh);
             let base = world.len() as u32;
             world.extend_from_slice(&mesh.positions);
-            push_attributes(&mut attributes, (number, object.class), &mesh, &scene.materials);
+            builder.push(number, object.class, &mesh);
             for group in mesh.groups.iter().filter(|g| g.count > 0) {
                 let material = group.material as usize;
                 let Some(surface) = surfaces[material] else { continue };
@@ -79,14 +72,20 @@ impl GpuScene {
                 chunks.push(Chunk { object: number, surface, texture, indices: start..indices.len() });
             }
         }
+        let color = |&(class, material): &(SceneClass, u32)| {
+            let material = &scene.materials[material as usize];
+            let [r, g, b] = material.color.map(|c| linear_from_srgb(c.clamp(0.0, 1.0)) as f32);
+            [r, g, b, near_infrared_gain(class, material) as f32]
+        };
+        let (streams, order) = builder.finish();
+        let materials: Vec<[f32; 4]> = order.iter().map(color).collect();
         chunks.sort_by_key(|c| (layer(scene.objects[c.object].class), c.surface, c.texture, c.object));
-        let materials: Vec<[f32; 4]> = scene.materials.iter().map(|m| linear_color(m.color)).collect();
         let empty_positions = vec![0u8; world.len() * 12];
         GpuScene {
             chunks,
             indices,
             bounds: scene.objects.iter().map(bounds).collect(),
-            attributes: gpu.buffer("attributes", bytemuck::cast_slice(&attributes), wgpu::BufferUsages::VERTEX),
+            streams,
             positions: gpu.buffer("positions", &empty_positions, wgpu::BufferUsages::VERTEX),
             materials: gpu.buffer("materials", bytemuck::cast_slice(&materials), wgpu::BufferUsages::STORAGE),
             textures: scene.textures.iter().map(|(_, t)| t.clone()).collect(),
@@ -105,6 +104,11 @@ impl GpuScene {
         let relative: Vec<[f32; 3]> = self.world.iter().map(|&p| (p - origin).as_vec3().to_array()).collect();
         gpu.queue.write_buffer(&self.positions, 0, bytemuck::cast_slice(&relative));
         self.placed = Some(origin);
+    }
+
+    /// How many attributes are on the device.
+    pub fn attributes(&self) -> usize {
+        usize::from(self.placed.is_some()) + self.streams.loaded().count()
     }
 
     /// Makes the bind groups of these textures.
@@ -162,45 +166,8 @@ fn layer(class: SceneClass) -> u8 {
     }
 }
 
-fn push_attributes(
-    attributes: &mut Vec<Attributes>,
-    (number, class): (usize, SceneClass),
-    mesh: &TriMesh,
-    materials: &[Arc<Material>],
-) {
-    let start = attributes.len();
-    // Ground layers are seen from above alone; walls of ruins and open roofs from both sides.
-    let two_sided = if class == SceneClass::Building { i16::MAX } else { 0 };
-    attributes.extend(mesh.normals.iter().enumerate().map(|(i, n)| {
-        let [x, y, z] = n.to_array().map(|c| (c.clamp(-1.0, 1.0) * f32::from(i16::MAX)).round() as i16);
-        // The scene's v runs up, as CGA's; that of images runs down.
-        let uv = mesh.uvs.get(i).map_or([0.0; 2], |uv| [uv.x, 1.0 - uv.y]);
-        Attributes { normal: [x, y, z, two_sided], uv, object: number as u32, material: 0 }
-    }));
-    for group in &mesh.groups {
-        let triangles = mesh.triangles.iter().skip(group.first as usize).take(group.count as usize);
-        for &vertex in triangles.clone().flatten() {
-            attributes[start + vertex as usize].material = group.material;
-        }
-        let transform = materials[group.material as usize].colormap_transform;
-        if transform != MapTransform::IDENTITY {
-            let vertices: BTreeSet<u32> = triangles.flatten().copied().collect();
-            for vertex in vertices {
-                let uv = &mut attributes[start + vertex as usize].uv;
-                let [u, v] = transform.apply([f64::from(uv[0]), 1.0 - f64::from(uv[1])]);
-                *uv = [u as f32, 1.0 - v as f32];
-            }
-        }
-    }
-}
-
 fn bounds(object: &SceneObject) -> Option<(DVec3, DVec3)> {
     let mut positions = object.mesh.positions.iter().copied();
     let first = positions.next()?;
     Some(positions.fold((first, first), |(low, high), p| (low.min(p), high.max(p))))
-}
-
-fn linear_color(srgb: [f64; 3]) -> [f32; 4] {
-    let [r, g, b] = srgb.map(|c| linear_from_srgb(c.clamp(0.0, 1.0)) as f32);
-    [r, g, b, 1.0]
 }

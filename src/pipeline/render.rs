@@ -83,7 +83,7 @@ pub fn render_dataset(
                 continue;
             }
             progress.begin("render", Some(views.drawn.len() as u64));
-            renderer.upload(&scene.scene)?;
+            renderer.upload_for(&scene.scene, &views.plan)?;
             records.extend(render_views(&mut renderer, dataset, scene, &views, &folder, progress)?);
             progress.end(&format!("{} views", views.drawn.len()));
         }

@@ -53,7 +53,7 @@ impl PipelineKey {
             PipelineKey::Ids { cutout: true } => &[Position, TextureCoordinates, Object],
             PipelineKey::Shade { surface: Surface::Plain, .. } => &[Position, Normal, Material],
             PipelineKey::Shade { .. } => &[Position, Normal, Material, TextureCoordinates],
-            PipelineKey::Resolve { .. } => &[],
+            PipelineKey::ShadowBounds { .. } | PipelineKey::Resolve { .. } => &[],
         }
     }
 }

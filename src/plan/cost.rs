@@ -20,17 +20,19 @@ impl Format {
     /// Of one texel.
     pub fn bytes(self) -> u64 {
         match self {
+            Format::Field16 => 2,
             Format::Depth32 | Format::Srgb8 | Format::Id32 => 4,
-            Format::Radiance16 => 8,
+            Format::Radiance16 | Format::Bounds32 => 8,
+            Format::Linear32 => 16,
         }
     }
 }
 
 impl TextureKey {
-    /// Of the whole image.
+    /// Of the whole image, all layers.
     pub fn texels(&self) -> u64 {
         let side = |texels: u32| u64::from(texels) * u64::from(self.supersample);
-        side(self.width) * side(self.height)
+        side(self.width) * side(self.height) * u64::from(self.layers)
     }
 }
 

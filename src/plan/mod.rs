@@ -12,6 +12,8 @@ pub mod light;
 pub mod pass;
 pub mod resource;
 pub mod schedule;
+pub mod shading;
+pub mod sky;
 pub mod summary;
 pub mod sun;
 pub mod view;

@@ -1,15 +1,18 @@
 //! Passes: one file each, with the pipelines it compiles and the commands it records.
 
 pub mod depth;
+pub mod field;
 pub mod ids;
 pub mod resolve;
 pub mod shade;
+pub mod shadow_bounds;
 pub mod shadow_map;
+pub mod sky_maps;
 
 use super::draws::DrawList;
 use super::pipelines::Pipelines;
-use super::pools::Target;
 use super::upload::GpuScene;
+use crate::plan::attribute::Attribute;
 use crate::plan::pass::{PipelineKey, Surface};
 
 /// What a pass that draws the scene needs besides its targets.
@@ -42,8 +45,10 @@ impl Drawing<'_> {
             pass.set_bind_group(1, light, &[]);
         }
         let texture_group = if light.is_some() { 2 } else { 1 };
-        pass.set_vertex_buffer(0, self.scene.positions.slice(..));
-        pass.set_vertex_buffer(1, self.scene.attributes.slice(..));
+        pass.set_vertex_buffer(Attribute::Position.slot(), self.scene.positions.slice(..));
+        for (attribute, buffer) in self.scene.streams.loaded() {
+            pass.set_vertex_buffer(attribute.slot(), buffer.slice(..));
+        }
         pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
         for run in &self.list.runs {
             pass.set_pipeline(self.pipelines.get(key(run.surface)));
@@ -53,32 +58,4 @@ impl Drawing<'_> {
             pass.draw_indexed(run.indices.clone(), 0, 0..1);
         }
     }
-}
-
-/// Begins a pass that clears its targets.
-fn begin<'e>(
-    encoder: &'e mut wgpu::CommandEncoder,
-    label: &str,
-    color: Option<(&Target, wgpu::Color)>,
-    depth: Option<&Target>,
-) -> wgpu::RenderPass<'e> {
-    let color = color.map(|(target, value)| wgpu::RenderPassColorAttachment {
-        view: &target.view,
-        depth_slice: None,
-        resolve_target: None,
-        ops: wgpu::Operations { load: wgpu::LoadOp::Clear(value), store: wgpu::StoreOp::Store },
-    });
-    let depth_ops = wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Store };
-    encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-        label: Some(label),
-        color_attachments: if color.is_some() { std::slice::from_ref(&color) } else { &[] },
-        depth_stencil_attachment: depth.map(|target| wgpu::RenderPassDepthStencilAttachment {
-            view: &target.view,
-            depth_ops: Some(depth_ops),
-            stencil_ops: None,
-        }),
-        timestamp_writes: None,
-        occlusion_query_set: None,
-        multiview_mask: None,
-    })
 }
