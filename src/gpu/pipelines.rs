@@ -97,20 +97,17 @@ pub struct GeometryPipeline<'a> {
 impl GeometryPipeline<'_> {
     /// Reverse depth: greater is nearer. Nothing is culled, since ruins and open roofs are seen from inside.
     pub fn create(self, gpu: &Gpu) -> wgpu::RenderPipeline {
-        // One buffer per attribute, each in its own slot.
-        let attributes = Attribute::BY_SLOT.map(|attribute| {
-            let (shader_location, format) = (attribute.slot(), attribute.format());
+        // One buffer per attribute, in slots without gaps, which some drivers do not survive.
+        let attributes = self.attributes.iter().map(|attribute| {
+            let (shader_location, format) = (attribute.location(), attribute.format());
             [wgpu::VertexAttribute { format, offset: 0, shader_location }]
         });
-        let buffers: Vec<_> = Attribute::BY_SLOT
-            .iter()
+        let attributes: Vec<_> = attributes.collect();
+        let strides = self.attributes.iter().map(|attribute| attribute.bytes());
+        let buffers: Vec<_> = strides
             .zip(&attributes)
-            .map(|(attribute, attributes)| {
-                self.attributes.contains(attribute).then_some(wgpu::VertexBufferLayout {
-                    array_stride: attribute.bytes(),
-                    step_mode: wgpu::VertexStepMode::Vertex,
-                    attributes,
-                })
+            .map(|(array_stride, attributes)| {
+                Some(wgpu::VertexBufferLayout { array_stride, step_mode: wgpu::VertexStepMode::Vertex, attributes })
             })
             .collect();
         let targets = self.fragment.and_then(|(_, format)| format).map(|f| [Some(texture_format(f).into())]);

@@ -11,11 +11,8 @@ use crate::plan::pass::PipelineKey;
 use crate::scene::{SceneClass, TriMesh};
 
 impl Attribute {
-    pub const BY_SLOT: [Attribute; 5] =
-        [Attribute::Position, Attribute::Normal, Attribute::TextureCoordinates, Attribute::Object, Attribute::Material];
-
-    /// Slot of its buffer and place in the shaders.
-    pub fn slot(self) -> u32 {
+    /// In the shaders.
+    pub fn location(self) -> u32 {
         match self {
             Attribute::Position => 0,
             Attribute::Normal => 1,
@@ -59,12 +56,17 @@ impl Streams {
         }
     }
 
-    /// Those on the device.
-    pub fn loaded(&self) -> impl Iterator<Item = (Attribute, &wgpu::Buffer)> {
-        self.0.iter().filter_map(|(attribute, stream)| match stream {
-            Stream::OnDevice(buffer) => Some((*attribute, buffer)),
-            Stream::Gathered(_) => None,
-        })
+    /// How many are on the device.
+    pub fn loaded(&self) -> usize {
+        self.0.values().filter(|stream| matches!(stream, Stream::OnDevice(_))).count()
+    }
+
+    /// The buffer of an attribute other than the position.
+    pub fn buffer(&self, attribute: Attribute) -> &wgpu::Buffer {
+        match self.0.get(&attribute) {
+            Some(Stream::OnDevice(buffer)) => buffer,
+            _ => panic!("the attributes of a pipeline were loaded before its pass began"),
+        }
     }
 }
 

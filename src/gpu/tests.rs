@@ -1,6 +1,7 @@
 //! Pictures of scenes whose pixels are known beforehand. Without an adapter they say so and pass, unless
 //! `MANSARD_REQUIRE_GPU` is 1.
 
+mod casters;
 mod coverage;
 mod economy;
 mod effects;

@@ -164,15 +164,15 @@ pub fn tile_planes(camera: &Camera, tile: Tile) -> Vec<(DVec3, f64)> {
     }
 }
 
-/// The same of a shadow map: its four sides.
+/// The same of a shadow map: its four sides and the end away from the sun.
 pub fn light_planes(light: &LightFrame, camera: DVec3) -> Vec<(DVec3, f64)> {
-    let [u, v, _] = light_rows(light, camera);
+    let [u, v, depth] = light_rows(light, camera);
     let size = f64::from(light.size);
     let side = |r: [f64; 4]| {
         let axis = DVec3::new(r[0], r[1], r[2]);
         [(axis, r[3]), (-axis, size - r[3])]
     };
-    [side(u), side(v)].concat()
+    [&side(u)[..], &side(v), &[(DVec3::new(depth[0], depth[1], depth[2]), depth[3])]].concat()
 }
 
 #[cfg(test)]

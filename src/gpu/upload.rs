@@ -37,7 +37,7 @@ pub struct GpuScene {
     /// Least and greatest corner of each object.
     pub bounds: Vec<Option<(DVec3, DVec3)>>,
     pub streams: Streams,
-    pub positions: wgpu::Buffer,
+    positions: wgpu::Buffer,
     pub materials: wgpu::Buffer,
     textures: Vec<Arc<image::RgbaImage>>,
     /// Made when a pass first samples them.
@@ -108,7 +108,11 @@ impl GpuScene {
 
     /// How many attributes are on the device.
     pub fn attributes(&self) -> usize {
-        usize::from(self.placed.is_some()) + self.streams.loaded().count()
+        usize::from(self.placed.is_some()) + self.streams.loaded()
+    }
+
+    pub fn buffer(&self, attribute: Attribute) -> &wgpu::Buffer {
+        if attribute == Attribute::Position { &self.positions } else { self.streams.buffer(attribute) }
     }
 
     /// Makes the bind groups of these textures.

@@ -1,7 +1,7 @@
 //! Light frame: the orthographic frame of a shadow map, fitted to what a camera sees.
 //!
 //! Along `u` and `v` it covers the receivers, that is the part of the scene's box inside the view volume; along the
-//! sun it covers every object, so casters outside the image still throw shadows into it. No limit on low sun is
+//! sun it covers everything from the receivers on, so casters outside the image still throw shadows into it. No limit on low sun is
 //! needed: the map is as wide as the receivers whatever the length of the shadows, and its texels are narrowed along
 //! the sun's way on the ground by the fit.
 
@@ -60,8 +60,9 @@ pub fn fit(camera: &Camera, bounds: (DVec3, DVec3), direction: DVec3, size: u32,
     let inner = f64::from(size) - 2.0 * BORDER - 1.0;
     let texel = ((high_uv - low_uv) / inner).max(DVec2::splat(1e-4));
     let corner = (low_uv / texel).floor() - BORDER;
+    // What lies farther from the sun than all receivers shadows none of them.
+    let low = receivers.iter().map(|p| p.dot(direction)).fold(f64::INFINITY, f64::min) - 1.0;
     let heights = box_corners(anchor, top).map(|p| (p - anchor).dot(direction));
-    let low = heights.iter().copied().fold(f64::INFINITY, f64::min) - 1.0;
     let high = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max) + 1.0;
     Some(LightFrame { anchor, u, v, direction, texel, corner, size, low, high })
 }

@@ -12,7 +12,6 @@ pub mod sky_maps;
 use super::draws::DrawList;
 use super::pipelines::Pipelines;
 use super::upload::GpuScene;
-use crate::plan::attribute::Attribute;
 use crate::plan::pass::{PipelineKey, Surface};
 
 /// What a pass that draws the scene needs besides its targets.
@@ -45,13 +44,17 @@ impl Drawing<'_> {
             pass.set_bind_group(1, light, &[]);
         }
         let texture_group = if light.is_some() { 2 } else { 1 };
-        pass.set_vertex_buffer(Attribute::Position.slot(), self.scene.positions.slice(..));
-        for (attribute, buffer) in self.scene.streams.loaded() {
-            pass.set_vertex_buffer(attribute.slot(), buffer.slice(..));
-        }
         pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
+        let mut last = None;
         for run in &self.list.runs {
-            pass.set_pipeline(self.pipelines.get(key(run.surface)));
+            let key = key(run.surface);
+            if last != Some(key) {
+                pass.set_pipeline(self.pipelines.get(key));
+                for (slot, attribute) in (0..).zip(key.attributes()) {
+                    pass.set_vertex_buffer(slot, self.scene.buffer(*attribute).slice(..));
+                }
+                last = Some(key);
+            }
             if let Some(texture) = run.texture {
                 pass.set_bind_group(texture_group, self.scene.texture_group(texture), &[]);
             }
