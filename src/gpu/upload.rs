@@ -2,6 +2,7 @@
 //!
 //! Other attributes go to the device once, when a pass first reads them; positions are written anew for each camera, about its origin (see [`GpuScene::place`]).
 
+use std::borrow::Cow;
 use std::collections::BTreeSet;
 use std::ops::Range;
 use std::sync::Arc;
@@ -58,7 +59,11 @@ impl GpuScene {
         let mut builder = Builder::new(wanted, &scene.materials);
         let (mut chunks, mut indices) = (Vec::new(), Vec::new());
         for (number, object) in scene.objects.iter().enumerate() {
-            let mesh = junctions::conforming(&object.mesh);
+            // The layers of the ground are one mesh without junctions.
+            let mesh = match object.class {
+                SceneClass::Building => junctions::conforming(&object.mesh),
+                _ => Cow::Borrowed(&object.mesh),
+            };
             let base = world.len() as u32;
             world.extend_from_slice(&mesh.positions);
             builder.push(number, object.class, &mesh);

@@ -18,7 +18,7 @@ scene town {
 change burnt { of building  share 50%  rules "mansard:damage.cga" }
 camera top { size 96 x 96  gsd 2m  fov 20deg }
 sun noon { elevation 50deg  azimuth 160deg }
-effects plain { shadows soft  ambient sky }
+effects plain { shadows hard  ambient sky }
 "#;
 
 const PASSES: &str = r#"
@@ -30,10 +30,10 @@ dataset d   { views 1 * top  passes before, mask  sun noon  effects plain }
 /// Everything that a recipe can define and not use.
 const UNUSED: &str = r#"
 sun dusk        { elevation 4deg  azimuth 280deg }
-effects crude   { shadows hard  ambient constant(40%) }
+effects crude   { shadows soft  ambient constant(40%) }
 quality costly  { preset high  shadow_map 16384 }
 camera oblique  { size 4000 x 4000  gsd 0.1m  fov 60deg  off_nadir 40deg }
-pass shown_not  { show all with burnt as colour, class, depth, instance, level  shadows hard }
+pass shown_not  { show all with burnt as colour, class, depth, instance, level  shadows soft }
 "#;
 
 /// Files of a folder and their bytes; of the manifest all but what it says of the recipe's own text.

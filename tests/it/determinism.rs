@@ -16,7 +16,7 @@ scene town {
 change burnt { of building  share 50%  rules "mansard:damage.cga" }
 camera top { size 96 x 96  gsd 2m  fov 20deg }
 sun        { elevation 40deg  azimuth 140deg }
-effects    { shadows soft  ambient sky }
+effects    { shadows hard  ambient sky }
 pass after { show all with burnt }
 pass mask  { show all with burnt mark burnt as mask }
 pass ids   { show all with burnt as instance }

@@ -50,7 +50,7 @@ fn mask_alone_needs_one_pass_two_targets_one_pipeline() {
     assert_eq!(stems(&plan), ["ids"]);
     assert_eq!(plan.counts(), Counts { passes: 1, textures: 2, pipelines: 1, attributes: 2, triangles: 24 });
     let skipped: Vec<_> = plan.views[0].skipped.iter().map(|s| s.what.as_str()).collect();
-    assert_eq!(skipped, ["shading", "shadow map"]);
+    assert_eq!(skipped, ["shading", "shadow map", "normal", "material", "texture coordinates"]);
 }
 
 #[test]

@@ -123,7 +123,7 @@ fn depth_is_right_from_one_metre_to_the_horizon() {
             };
             let expected = along(0.0);
             // Corners are rounded to 1/256 pixel, and large triangles are cut at the near plane; beyond the plane's end there is nothing.
-            let rounding = (along(-1.0 / 64.0) - along(1.0 / 64.0)).abs();
+            let rounding = (along(-1.0 / 32.0) - along(1.0 / 32.0)).abs();
             if expected < 0.0 || along(-0.1) < 0.0 || along(-0.1) > 19_000.0 {
                 continue;
             }
