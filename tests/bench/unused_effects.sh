@@ -26,6 +26,7 @@ change burnt { of building  share 50%  rules "mansard:damage.cga" }
 camera top { size 96 x 96  gsd 2m  fov 20deg }
 sun noon { elevation 50deg  azimuth 160deg }
 effects plain { shadows soft  ambient sky }
+quality quick { preset draft }
 TEXT
 }
 unused() {
@@ -41,7 +42,7 @@ used() {
     cat <<TEXT
 pass before { show all }
 pass mask   { show all with burnt mark burnt as mask }
-dataset d   { views 1 * top  passes before, mask  sun noon  effects plain }
+dataset d   { views 1 * top  passes before, mask  sun noon  effects plain  quality quick }
 TEXT
 }
 { scene; used; } >lean.render

@@ -19,12 +19,13 @@ change burnt { of building  share 50%  rules "mansard:damage.cga" }
 camera top { size 96 x 96  gsd 2m  fov 20deg }
 sun noon { elevation 50deg  azimuth 160deg }
 effects plain { shadows hard  ambient sky }
+quality quick { preset draft }
 "#;
 
 const PASSES: &str = r#"
 pass before { show all }
 pass mask   { show all with burnt mark burnt as mask }
-dataset d   { views 1 * top  passes before, mask  sun noon  effects plain }
+dataset d   { views 1 * top  passes before, mask  sun noon  effects plain  quality quick }
 "#;
 
 /// Everything that a recipe can define and not use.
@@ -90,7 +91,7 @@ fn counts(shop: &Workshop, blocks: &str) -> Value {
 #[test]
 fn the_last_user_takes_passes_targets_pipelines_and_attributes_with_it() {
     let shop = shop();
-    let dataset = "dataset d { views 1 * top  sun noon  effects plain }\n";
+    let dataset = "dataset d { views 1 * top  sun noon  effects plain  quality quick }\n";
     let mask = "pass mask { show all with burnt mark burnt as mask }\n";
     let lit = counts(&shop, &format!("pass before {{ show all }}\n{mask}{dataset}"));
     let unshadowed = counts(&shop, &format!("pass before {{ show all  shadows off }}\n{mask}{dataset}"));
