@@ -84,7 +84,7 @@ fn discs((low, high): (DVec3, DVec3)) -> Vec<(DVec2, f64)> {
 pub(super) fn look<'a>(around: &Surroundings, pass: &'a PassSpec, light: &Light, drawer: &mut Drawer<'a>) -> Look {
     let effects = &around.effects;
     let (ambient, level) = (ambient(effects.ambient, light), light.sun.direction.y);
-    let mut own = |drawer: &mut Drawer<'a>, given: bool| drawer.pass = given.then_some(pass.name.as_str());
+    let own = |drawer: &mut Drawer<'a>, given: bool| drawer.pass = given.then_some(pass.name.as_str());
     own(drawer, pass.effects.atmosphere.is_some());
     let haze = effects.atmosphere.as_ref().map(|spec| haze(spec, light, around.summary, drawer));
     own(drawer, pass.effects.clouds.is_some());

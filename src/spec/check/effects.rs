@@ -41,13 +41,13 @@ impl Checker<'_> {
 
     /// What the properties say of effects, all mistakes reported.
     pub fn effect_overrides(&mut self, properties: &[Property]) -> Option<EffectOverrides> {
-        let shadows = self.effect(properties, "shadows", Self::shadows);
-        let ambient = self.effect(properties, "ambient", Self::ambient);
-        let atmosphere = self.effect(properties, "atmosphere", Self::atmosphere);
-        let clouds = self.effect(properties, "clouds", Self::clouds);
-        let ground = self.effect(properties, "ground", Self::ground);
-        let vegetation = self.effect(properties, "vegetation", Self::vegetation);
-        let sensor = self.effect(properties, "sensor", Self::sensor);
+        let shadows = self.given_effect(properties, "shadows", Self::shadows);
+        let ambient = self.given_effect(properties, "ambient", Self::ambient);
+        let atmosphere = self.given_effect(properties, "atmosphere", Self::atmosphere);
+        let clouds = self.given_effect(properties, "clouds", Self::clouds);
+        let ground = self.given_effect(properties, "ground", Self::ground);
+        let vegetation = self.given_effect(properties, "vegetation", Self::vegetation);
+        let sensor = self.given_effect(properties, "sensor", Self::sensor);
         Some(EffectOverrides {
             shadows: shadows?,
             ambient: ambient?,
@@ -60,7 +60,7 @@ impl Checker<'_> {
     }
 
     /// `Some(None)` where the property is not given, `None` where it is wrong.
-    fn effect<T>(
+    fn given_effect<T>(
         &mut self,
         properties: &[Property],
         key: &str,
