@@ -478,6 +478,9 @@ fn the_examples_load() {
     let (spec, diagnostics) = example("riverside/riverside.render", &[]);
     let spec = spec.unwrap_or_else(|| panic!("{diagnostics:?}"));
     assert_eq!((spec.scenes[0].rules.len(), spec.datasets[0].views.len()), (5, 3));
+    let (spec, diagnostics) = example("effects/hazeldown.render", &[]);
+    let spec = spec.unwrap_or_else(|| panic!("{diagnostics:?}"));
+    assert!(spec.datasets[0].effects.vegetation && spec.passes[3].effects.sensor.is_some());
     let inputs = [("map", "a.osm,b.osm"), ("elevation", "c.tif"), ("window", "-122.7240,38.4182,-122.7010,38.4362")];
     let (spec, diagnostics) = example("syncw/syncw.render", &inputs);
     let spec = spec.unwrap_or_else(|| panic!("{diagnostics:?}"));
