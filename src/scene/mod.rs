@@ -10,5 +10,6 @@ mod palette;
 pub mod parts;
 pub mod texture;
 mod triangles;
+pub mod vegetation;
 
 pub use model::{Group, Presence, Scene, SceneClass, SceneObject, TriMesh};
