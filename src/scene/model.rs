@@ -26,7 +26,7 @@ pub enum SceneClass {
     Natural = 5,
     Leisure = 6,
     Water = 7,
-    /// Trees and bushes that an effect adds.
+    /// Trees and bushes, where the recipe asks for them.
     Vegetation = 8,
 }
 
