@@ -103,8 +103,8 @@ mod tests {
     /// Mean of a field over 1600 largest features, away from the origin on both sides of it.
     fn mean(size: f64, field: &dyn Fn(DVec2) -> f64) -> f64 {
         let places =
-            (0..400).flat_map(|i| (0..400).map(move |j| DVec2::new(f64::from(i) - 150.0, f64::from(j) - 260.0)));
-        places.map(|p| field(p * (0.1037 * size))).sum::<f64>() / 160_000.0
+            (0..200).flat_map(|i| (0..200).map(move |j| DVec2::new(f64::from(i) - 75.0, f64::from(j) - 130.0)));
+        places.map(|p| field(p * (0.2074 * size))).sum::<f64>() / 40_000.0
     }
 
     #[test]
