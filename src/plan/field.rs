@@ -40,8 +40,14 @@ impl GroundState {
     /// Share of the ground that is covered at a place, 0..1. Far from the border of what is reached its mean over the
     /// plan is the strength; towards the border the strength falls evenly to nothing.
     pub fn coverage(&self, plan: DVec2) -> f64 {
-        let near = |&(center, radius): &(DVec2, f64)| 1.0 - ((plan - center).length() - radius).max(0.0) / self.reach;
-        let near = self.around.iter().map(near).fold(0.0, f64::max);
+        let mut near = 0.0f64;
+        for &(center, radius) in self.around.iter() {
+            let (offset, outer) = (plan - center, radius + self.reach);
+            // Most discs are far away, and there may be thousands.
+            if offset.length_squared() < outer * outer {
+                near = near.max(1.0 - (offset.length() - radius).max(0.0) / self.reach);
+            }
+        }
         if near == 0.0 {
             return 0.0;
         }
