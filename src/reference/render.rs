@@ -3,14 +3,16 @@
 use rayon::prelude::*;
 
 use super::camera;
-use super::color::{self, Rgb};
+use super::color::Rgb;
 use super::light::Lighting;
-use super::sampling::{Dimension, Strata};
+use super::sampling::{self, Dimension, Strata};
 use super::tracer::{Hit, Tracer};
 use super::{Estimate, Options, Progress, ReferenceError};
 use crate::frame::{Frame, Image, Pixels};
 use crate::interpreter::seed::Seed;
-use crate::plan::demand::{BACKGROUND, Output, OutputDemand, ViewDemand};
+use crate::plan::demand::{Ambient, Look, Output, OutputDemand, ViewDemand};
+use crate::plan::effects::Sensor;
+use crate::sensor;
 
 /// The images of a view and, for each colour image, how sure it is.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,8 +32,11 @@ impl Tracer {
             let (pixels, estimate) = match output.output {
                 Output::Color => {
                     let estimate = self.color(view, output, options);
-                    let bytes = estimate.linear.iter().flat_map(|light| light.map(color::byte)).collect();
-                    (Pixels::Rgb8(bytes), Some(estimate))
+                    // The samples were spread already.
+                    let sensor = Sensor { psf: 0.0, ..output.look.sensor.unwrap_or(sensor::PLAIN) };
+                    let linear: Vec<[f32; 3]> = estimate.linear.iter().map(|light| light.map(|c| c as f32)).collect();
+                    let size = (view.camera.width, view.camera.height);
+                    (sensor::develop(&linear, size, &sensor), Some(estimate))
                 }
                 _ => (self.labels(view, output), None),
             };
@@ -43,12 +48,10 @@ impl Tracer {
     }
 
     fn color(&self, view: &ViewDemand, output: &OutputDemand, options: &Options) -> Estimate {
-        let lighting = Lighting {
-            sun: view.sun.filter(|sun| sun.direction.y > 0.0),
-            shadows: output.look.shadows,
-            ambient: output.look.ambient,
-            shown: &output.selection.objects,
-        };
+        let lighting = Lighting::new(view, output);
+        let spread = output.look.sensor.map_or(0.0, |sensor| sensor.psf);
+        let [sun, sky] = lighting.needs();
+        let used = [true, sun, sky, spread > 0.0];
         let seed = Seed::root(options.seed).named(&view.name);
         let (width, height) = (view.camera.width as usize, view.camera.height as usize);
         let mut sums = vec![Sum::default(); width * height];
@@ -57,9 +60,10 @@ impl Tracer {
             sums.par_chunks_mut(width.max(1)).enumerate().for_each(|(y, row)| {
                 for (x, sum) in row.iter_mut().enumerate() {
                     let key = seed.part((y as u64) << 32 | x as u64).part(u64::from(pass));
-                    let strata = Strata::new(key, side);
-                    sum.add(self.mean(view, &lighting, (x, y), &strata, side));
+                    let strata = Strata::new(key, side, used);
+                    sum.add(self.mean(view, &lighting, (x, y), &strata, (side * side, spread)));
                 }
+                (options.row)();
             });
             let error = (pass > 0).then(|| mean_error(&sums));
             let (passes, of) = (pass + 1, options.passes);
@@ -76,17 +80,26 @@ impl Tracer {
         }
     }
 
-    /// Mean of one pass's samples of a pixel.
-    fn mean(&self, view: &ViewDemand, light: &Lighting, pixel: (usize, usize), strata: &Strata, side: u32) -> Rgb {
-        let count = side * side;
+    /// Mean of one pass's samples of a pixel: their number, and the deviation of the point-spread function.
+    fn mean(
+        &self,
+        view: &ViewDemand,
+        light: &Lighting,
+        pixel: (usize, usize),
+        strata: &Strata,
+        (count, spread): (u32, f64),
+    ) -> Rgb {
         let mut sum = [0.0; 3];
         for sample in 0..count {
-            let [dx, dy] = strata.point(sample, Dimension::Pixel);
-            let ray = self.ray(camera::ray(&view.camera, pixel.0 as f64 + dx, pixel.1 as f64 + dy));
-            let radiance = match self.nearest(&ray, view.camera.near, light.shown) {
-                Some(hit) => light.radiance(self, &self.point(&hit, &ray), strata, sample),
-                None => BACKGROUND,
-            };
+            let [mut dx, mut dy] = strata.point(sample, Dimension::Pixel);
+            if spread > 0.0 {
+                let [aside, down] = sampling::normal(strata.point(sample, Dimension::Spread));
+                (dx, dy) = (dx + spread * aside, dy + spread * down);
+            }
+            let (eye, direction) = camera::ray(&view.camera, pixel.0 as f64 + dx, pixel.1 as f64 + dy);
+            let ray = self.ray((eye, direction));
+            let point = self.nearest(&ray, view.camera.near, light.shown).map(|hit| self.point(&hit, &ray));
+            let radiance = light.seen(self, eye, point.as_ref(), strata, sample);
             (0..3).for_each(|k| sum[k] += radiance[k]);
         }
         sum.map(|s| s / f64::from(count))
@@ -138,7 +151,8 @@ fn check(tracer: &Tracer, view: &ViewDemand, options: &Options) -> Result<(), Re
     let sun = view.sun.is_none_or(|sun| {
         sun.direction.is_finite() && sun.disc_deg.is_finite() && sun.irradiance.iter().all(|c| c.is_finite())
     });
-    if !camera::is_finite(&view.camera) || !sun {
+    let looks = view.outputs.iter().all(|output| is_finite(&output.look));
+    if !camera::is_finite(&view.camera) || !sun || !looks {
         return Err(ReferenceError::NotFiniteView(view.name.clone()));
     }
     let flags = view.outputs.iter().flat_map(|o| [Some(&o.selection.objects), o.marked.as_ref()]).flatten();
@@ -146,6 +160,27 @@ fn check(tracer: &Tracer, view: &ViewDemand, options: &Options) -> Result<(), Re
         return Err(ReferenceError::WrongScene(view.name.clone()));
     }
     Ok(())
+}
+
+/// Whether every number of a look is finite.
+fn is_finite(look: &Look) -> bool {
+    let ambient = match look.ambient {
+        Ambient::Off => vec![],
+        Ambient::Constant(radiance) => radiance.to_vec(),
+        Ambient::Sky { zenith, ground, .. } => [zenith, ground].concat(),
+    };
+    let haze = look.haze.iter().flat_map(|h| [&h.extinction[..], &h.airlight, &[h.scale_height, h.base]].concat());
+    let clouds = look.clouds.iter().flat_map(|c| [&[c.cover, c.height, c.size, c.depth][..], &c.color].concat());
+    let sensor = look.sensor.iter().flat_map(|s| {
+        let light = s.bands.near_infrared();
+        let light = light.map(|l| vec![l.sun, l.zenith, l.ground, l.extinction, l.airlight]).unwrap_or_default();
+        [&[s.psf, s.exposure, s.read_noise, s.full_well][..], &light].concat()
+    });
+    let ground = look.ground.iter().flat_map(|ground| {
+        let discs = ground.around.iter().flat_map(|(center, radius)| [center.x, center.y, *radius]);
+        [ground.strength, ground.reach].into_iter().chain(discs)
+    });
+    ambient.into_iter().chain(haze).chain(clouds).chain(sensor).chain(ground).all(f64::is_finite)
 }
 
 /// Mean and spread of the passes of one pixel (Welford 1962).
