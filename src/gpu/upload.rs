@@ -133,7 +133,7 @@ impl GpuScene {
 /// Drawing order of the layers, the uppermost first.
 fn layer(class: SceneClass) -> u8 {
     match class {
-        SceneClass::Building => 0,
+        SceneClass::Building | SceneClass::Vegetation => 0,
         SceneClass::Highway => 1,
         SceneClass::Water => 2,
         SceneClass::Leisure => 3,

@@ -22,6 +22,7 @@ mod single;
 mod streets;
 mod textures;
 mod validation;
+mod vegetation;
 mod views;
 
 pub use backend::BackendChoice;

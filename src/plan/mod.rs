@@ -1,11 +1,13 @@
 //! Plan: what the recipe demands → which passes run, in which order, over which resources. No GPU here.
 
 pub mod change;
+pub mod clear_sky;
 pub mod demand;
 pub mod dump;
 pub mod effects;
 pub mod field;
 pub mod light;
+mod look;
 pub mod pass;
 pub mod resource;
 pub mod schedule;
