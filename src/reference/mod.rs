@@ -24,8 +24,8 @@ pub use tracer::Tracer;
 pub enum ReferenceError {
     #[error("object {object} (instance {instance}): the {what} of vertex {vertex} is not a finite number")]
     NotFinite { object: usize, instance: u32, what: &'static str, vertex: usize },
-    #[error("view {0}: the camera, the sun or a look has a number that is not finite")]
-    NotFiniteView(String),
+    #[error("view {view}: a number of {what} is not finite")]
+    NotFiniteView { view: String, what: &'static str },
     #[error("view {0} was planned for another scene")]
     WrongScene(String),
     #[error("{passes} passes of {side} × {side} samples: at least 2 passes of 1 × 1 to 256 × 256 are needed")]

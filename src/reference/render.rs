@@ -10,8 +10,9 @@ use super::tracer::{Hit, Tracer};
 use super::{Estimate, Options, Progress, ReferenceError};
 use crate::frame::{Frame, Image, Pixels};
 use crate::interpreter::seed::Seed;
-use crate::plan::demand::{Ambient, Look, Output, OutputDemand, ViewDemand};
+use crate::plan::demand::{Output, OutputDemand, ViewDemand};
 use crate::plan::effects::Sensor;
+use crate::plan::finite::not_finite;
 use crate::sensor;
 
 /// The images of a view and, for each colour image, how sure it is.
@@ -148,39 +149,14 @@ fn check(tracer: &Tracer, view: &ViewDemand, options: &Options) -> Result<(), Re
     if passes < 2 || !(1..=256).contains(&side) {
         return Err(ReferenceError::BadSampling { passes, side });
     }
-    let sun = view.sun.is_none_or(|sun| {
-        sun.direction.is_finite() && sun.disc_deg.is_finite() && sun.irradiance.iter().all(|c| c.is_finite())
-    });
-    let looks = view.outputs.iter().all(|output| is_finite(&output.look));
-    if !camera::is_finite(&view.camera) || !sun || !looks {
-        return Err(ReferenceError::NotFiniteView(view.name.clone()));
+    if let Some(what) = not_finite(view) {
+        return Err(ReferenceError::NotFiniteView { view: view.name.clone(), what });
     }
     let flags = view.outputs.iter().flat_map(|o| [Some(&o.selection.objects), o.marked.as_ref()]).flatten();
     if flags.into_iter().any(|flags| flags.len() != tracer.objects.len()) {
         return Err(ReferenceError::WrongScene(view.name.clone()));
     }
     Ok(())
-}
-
-/// Whether every number of a look is finite.
-fn is_finite(look: &Look) -> bool {
-    let ambient = match look.ambient {
-        Ambient::Off => vec![],
-        Ambient::Constant(radiance) => radiance.to_vec(),
-        Ambient::Sky { zenith, ground, .. } => [zenith, ground].concat(),
-    };
-    let haze = look.haze.iter().flat_map(|h| [&h.extinction[..], &h.airlight, &[h.scale_height, h.base]].concat());
-    let clouds = look.clouds.iter().flat_map(|c| [&[c.cover, c.height, c.size, c.depth][..], &c.color].concat());
-    let sensor = look.sensor.iter().flat_map(|s| {
-        let light = s.bands.near_infrared();
-        let light = light.map(|l| vec![l.sun, l.zenith, l.ground, l.extinction, l.airlight]).unwrap_or_default();
-        [&[s.psf, s.exposure, s.read_noise, s.full_well][..], &light].concat()
-    });
-    let ground = look.ground.iter().flat_map(|ground| {
-        let discs = ground.around.iter().flat_map(|(center, radius)| [center.x, center.y, *radius]);
-        [ground.strength, ground.reach].into_iter().chain(discs)
-    });
-    ambient.into_iter().chain(haze).chain(clouds).chain(sensor).chain(ground).all(f64::is_finite)
 }
 
 /// Mean and spread of the passes of one pixel (Welford 1962).
