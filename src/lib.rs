@@ -11,6 +11,7 @@
 //! | Scene | [`scene`] | `ShapeTree`s + terrain | [`scene::Scene`] |
 //! | Recipe | [`spec`] | `SourceFile` | [`spec::render_spec::RenderSpec`] |
 //! | Plan | [`plan`] | `RenderSpec` + scene summary | [`plan::RenderPlan`] |
+//! | Sensor | [`sensor`] | linear pixels | [`frame::Pixels`] |
 //! | Truth | [`reference`] | [`plan::demand::ViewDemand`] + `Scene` | [`frame::Frame`] and its standard error |
 //! | Render | [`gpu`] | `RenderPlan` + `Scene` | [`frame::Frame`] |
 //! | Dataset | [`dataset`] | `Frame`s + labels | files |
@@ -31,6 +32,7 @@ pub mod pipeline;
 pub mod plan;
 pub mod reference;
 pub mod scene;
+pub mod sensor;
 pub mod source;
 pub mod spec;
 pub mod town;

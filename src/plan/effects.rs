@@ -101,7 +101,7 @@ pub struct GroundState {
     pub around: Arc<[(DVec2, f64)]>,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum GroundKind {
     /// Grey, dull, with soft borders.
     Ash,
@@ -172,6 +172,11 @@ pub enum Bands {
     /// Near infrared, red, green: the false colours in which vegetation is red.
     FalseColor(NirLight),
 }
+
+/// Weights of linear red, green and blue in luminance (Rec. 709).
+pub const LUMINANCE: [f64; 3] = [0.2126, 0.7152, 0.0722];
+/// No surface has a greater near-infrared albedo.
+pub const MOST_INFRARED: f64 = 0.95;
 
 impl Bands {
     /// The three channels of an image from radiance in red, green, blue and near infrared.
