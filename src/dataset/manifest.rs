@@ -51,9 +51,15 @@ pub struct InputFile {
 /// What made the images.
 #[derive(Clone, Debug, Serialize)]
 pub struct RendererInfo {
+    /// That of the adapter, or `reference`.
     pub backend: String,
-    pub adapter: String,
-    pub driver: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub adapter: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub driver: Option<String>,
+    /// Of the reference.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub samples_per_pixel: Option<u32>,
 }
 
 /// One scene as it was built.
@@ -114,6 +120,9 @@ pub struct ViewRecord {
     pub acquisitions: Vec<AcquisitionRecord>,
     /// Image name → file.
     pub images: BTreeMap<String, WrittenFile>,
+    /// Image name → mean standard error of its linear light, of images that the reference made.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub standard_errors: BTreeMap<String, f64>,
 }
 
 /// Camera and sun of one acquisition, as used.
@@ -135,6 +144,9 @@ pub struct AcquisitionRecord {
     /// Degrees above the horizon and clockwise from north; absent without a sun.
     pub sun_elevation: Option<f64>,
     pub sun_azimuth: Option<f64>,
+    /// Image name → what lit and took it besides sun and ambient light, where anything did.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub effects: BTreeMap<String, serde_json::Value>,
 }
 
 impl Manifest {

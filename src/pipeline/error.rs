@@ -10,6 +10,7 @@ use crate::geodata::projection::ProjectionError;
 use crate::geodata::terrain::TerrainError;
 use crate::gpu::GpuError;
 use crate::output::OutputError;
+use crate::reference::ReferenceError;
 use crate::scene::export::ExportError;
 use crate::scene::ground::GroundError;
 use crate::source::AccessError;
@@ -43,6 +44,8 @@ pub enum PipelineError {
     Dataset(#[from] DatasetError),
     #[error(transparent)]
     Gpu(#[from] GpuError),
+    #[error(transparent)]
+    Reference(#[from] ReferenceError),
     #[error("the recipe has no dataset; `mansard build` writes the geometry alone")]
     NoDataset,
     #[error("no object of the map lies in the area of scene `{0}`")]

@@ -3,6 +3,7 @@
 //! In: a recipe's path and the command line's choices. Out: scenes ([`build_scene`]), plans ([`plan_views`]) and
 //! datasets ([`render_dataset`]).
 
+mod backend;
 mod build;
 mod derivation;
 mod error;
@@ -21,8 +22,10 @@ mod single;
 mod streets;
 mod textures;
 mod validation;
+mod vegetation;
 mod views;
 
+pub use backend::BackendChoice;
 pub use build::{BuiltScene, Checks, build_scene};
 pub use error::PipelineError;
 pub use portrait::portrait;

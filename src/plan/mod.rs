@@ -2,13 +2,15 @@
 
 pub mod attribute;
 pub mod change;
+pub mod clear_sky;
 pub mod cost;
 pub mod demand;
 pub mod dump;
 pub mod effects;
 pub mod field;
-mod finite;
+pub mod finite;
 pub mod light;
+mod look;
 pub mod pass;
 pub mod resource;
 pub mod schedule;
