@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use crate::cost::bench::CostError;
 use crate::dataset::DatasetError;
 use crate::diagnostics::Diagnostics;
 use crate::geodata::elevation::ElevationError;
@@ -10,6 +11,7 @@ use crate::geodata::projection::ProjectionError;
 use crate::geodata::terrain::TerrainError;
 use crate::gpu::GpuError;
 use crate::output::OutputError;
+use crate::reference::ReferenceError;
 use crate::scene::export::ExportError;
 use crate::scene::ground::GroundError;
 use crate::source::AccessError;
@@ -43,12 +45,31 @@ pub enum PipelineError {
     Dataset(#[from] DatasetError),
     #[error(transparent)]
     Gpu(#[from] GpuError),
+    #[error(transparent)]
+    Reference(#[from] ReferenceError),
+    #[error(
+        "no settings keep {promised} in scene `{scene}` of dataset `{dataset}`: the best there is has {best} ({settings})"
+    )]
+    Budget { promised: String, dataset: String, scene: String, best: String, settings: String },
+    #[error("the ground of scene `{scene}` cannot keep height {promised_m} m: the best there is has {best_m:.3} m")]
+    HeightBudget { scene: String, promised_m: f64, best_m: f64 },
+    #[error("no view of the recipe has a colour image, whose accuracy could cost something")]
+    NoColor,
     #[error("the recipe has no dataset; `mansard build` writes the geometry alone")]
     NoDataset,
     #[error("no object of the map lies in the area of scene `{0}`")]
     NothingInArea(String),
     #[error("no view of the recipe is called {0}; `mansard plan` lists them")]
     NoSuchView(String),
+}
+
+impl From<CostError> for PipelineError {
+    fn from(error: CostError) -> Self {
+        match error {
+            CostError::Gpu(error) => error.into(),
+            CostError::Reference(error) => error.into(),
+        }
+    }
 }
 
 impl PipelineError {

@@ -3,7 +3,9 @@
 //! In: a recipe's path and the command line's choices. Out: scenes ([`build_scene`]), plans ([`plan_views`]) and
 //! datasets ([`render_dataset`]).
 
+mod budget;
 mod build;
+mod cost;
 mod derivation;
 mod error;
 mod lot;
@@ -24,6 +26,7 @@ mod validation;
 mod views;
 
 pub use build::{BuiltScene, Checks, build_scene};
+pub use cost::{CostOptions, CostSummary, measure_cost};
 pub use error::PipelineError;
 pub use portrait::portrait;
 pub use progress::{Progress, Silent};

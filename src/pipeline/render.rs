@@ -5,13 +5,14 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::sync_channel;
 
+use super::budget::settle;
 use super::build::{BuiltScene, Checks, build_scene};
 use super::error::PipelineError;
 use super::progress::Progress;
 use super::recipe::Recipe;
 use super::record::{acquisition_record, inputs};
 use super::views::{SceneViews, scene_views};
-use crate::dataset::manifest::{Generator, Manifest, RendererInfo, ViewRecord};
+use crate::dataset::manifest::{BudgetRecord, Generator, Manifest, RendererInfo, ViewRecord};
 use crate::dataset::reports::{self, SceneReports};
 use crate::dataset::writer::{WrittenFile, write_file};
 use crate::dataset::{DatasetError, image_path, is_levir_label, write_image};
@@ -73,18 +74,25 @@ pub fn render_dataset(
     scene_files.extend(write_reports(&built, &options.output)?);
 
     // Images.
-    let mut renderer = Renderer::new()?;
+    let mut renderer = Some(Renderer::new()?);
     for dataset in &recipe.spec.datasets {
         let folder = folder(dataset);
-        let mut records = Vec::new();
+        let (mut records, mut budgets) = (Vec::new(), Vec::new());
         for (index, scene) in built.iter().enumerate() {
             let views = scene_views(recipe, dataset, index, scene, &|name| is_wanted(name, &options.views));
             if views.drawn.is_empty() {
                 continue;
             }
+            let settled = settle(recipe, dataset, index, scene, &mut renderer, progress)?;
+            let views = match &settled.record {
+                Some(_) => scene_views(recipe, &settled.dataset, index, scene, &|name| is_wanted(name, &options.views)),
+                None => views,
+            };
+            budgets.extend(settled.record);
+            let renderer = renderer.as_mut().expect("it was opened above");
             progress.begin("render", Some(views.drawn.len() as u64));
             renderer.upload(&scene.scene)?;
-            records.extend(render_views(&mut renderer, dataset, scene, &views, &folder, progress)?);
+            records.extend(render_views(renderer, dataset, scene, &views, &folder, progress)?);
             progress.end(&format!("{} views", views.drawn.len()));
         }
         summary.views += records.len();
@@ -92,7 +100,8 @@ pub fn render_dataset(
         // Scenes lie beside the folders of several datasets.
         let from_here = |f: &WrittenFile| WrittenFile { path: format!("../{}", f.path), sha256: f.sha256.clone() };
         let files = if several { scene_files.iter().map(from_here).collect() } else { scene_files.clone() };
-        let manifest = manifest(recipe, dataset, sources, &renderer, &built, records, files)?;
+        let renderer = renderer.as_ref().expect("it was opened above");
+        let manifest = manifest(recipe, dataset, sources, renderer, &built, (records, budgets), files)?;
         write_file(&folder, Path::new("manifest.json"), &manifest.to_bytes())?;
         let prefix = if several { format!("{}/", dataset.name) } else { String::new() };
         summary.other_files.push(format!("{prefix}manifest.json"));
@@ -204,7 +213,7 @@ fn manifest(
     sources: &SourceMap,
     renderer: &Renderer,
     built: &[BuiltScene],
-    views: Vec<ViewRecord>,
+    (views, budgets): (Vec<ViewRecord>, Vec<BudgetRecord>),
     files: Vec<WrittenFile>,
 ) -> Result<Manifest, PipelineError> {
     let adapter = renderer.adapter();
@@ -222,6 +231,7 @@ fn manifest(
         },
         classes: SceneClass::ALL.iter().map(|class| (*class as u8, class.name())).collect(),
         scenes: built.iter().map(|b| b.record.clone()).collect(),
+        budgets,
         views,
         files,
     })

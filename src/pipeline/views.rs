@@ -4,10 +4,12 @@
 use glam::{DVec2, DVec3};
 use serde_json::{Value, json};
 
+use super::budget::{self, settle};
 use super::build::{BuiltScene, Checks, build_scene};
 use super::error::PipelineError;
 use super::progress::Progress;
 use super::recipe::Recipe;
+use crate::dataset::manifest::BudgetRecord;
 use crate::plan::view::{DrawnView, SceneSummary, views};
 use crate::plan::{RenderPlan, dump, schedule, summarize};
 use crate::spec::render_spec::DatasetSpec;
@@ -41,6 +43,8 @@ pub struct PlannedScene {
     pub scene: String,
     /// Lines on what was derived and what was not.
     pub derivation: Vec<String>,
+    /// What an error budget came to.
+    pub budget: Option<BudgetRecord>,
     pub plan: RenderPlan,
 }
 
@@ -52,14 +56,17 @@ pub struct PlannedRecipe {
 /// Builds the scenes of a recipe and plans all views of all its datasets.
 pub fn plan_views(recipe: &Recipe, progress: &dyn Progress) -> Result<PlannedRecipe, PipelineError> {
     let mut scenes = Vec::new();
+    let mut renderer = None;
     for index in 0..recipe.spec.scenes.len() {
         let built = build_scene(recipe, index, Checks::Off, progress)?;
         for dataset in &recipe.spec.datasets {
-            let views = scene_views(recipe, dataset, index, &built, &|_| true);
+            let settled = settle(recipe, dataset, index, &built, &mut renderer, progress)?;
+            let views = scene_views(recipe, &settled.dataset, index, &built, &|_| true);
             scenes.push(PlannedScene {
                 dataset: dataset.name.clone(),
                 scene: built.record.name.clone(),
                 derivation: derivation(&built),
+                budget: settled.record,
                 plan: views.plan,
             });
         }
@@ -90,7 +97,8 @@ fn derivation(built: &BuiltScene) -> Vec<String> {
 impl PlannedRecipe {
     pub fn text(&self) -> String {
         let scene = |s: &PlannedScene| {
-            let derivation: String = s.derivation.iter().map(|line| format!("  {line}\n")).collect();
+            let budget = s.budget.as_ref().map(budget::lines).unwrap_or_default();
+            let derivation: String = s.derivation.iter().chain(&budget).map(|line| format!("  {line}\n")).collect();
             format!("dataset {}, scene {}\n{derivation}{}", s.dataset, s.scene, dump::text(&s.plan))
         };
         self.scenes.iter().map(scene).collect()
@@ -98,12 +106,16 @@ impl PlannedRecipe {
 
     pub fn json(&self) -> Value {
         let scene = |s: &PlannedScene| {
-            json!({
+            let mut value = json!({
                 "dataset": s.dataset,
                 "scene": s.scene,
                 "derivation": s.derivation,
                 "plan": dump::json(&s.plan),
-            })
+            });
+            if let Some(budget) = &s.budget {
+                value["budget"] = json!(budget);
+            }
+            value
         };
         json!({ "datasets": self.scenes.iter().map(scene).collect::<Vec<_>>() })
     }

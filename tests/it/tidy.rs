@@ -19,6 +19,7 @@ const ORDER: &[&str] = &[
     "frame",
     "reference",
     "gpu",
+    "cost",
     "dataset",
     "pipeline",
 ];
