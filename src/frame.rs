@@ -5,8 +5,12 @@
 pub enum Pixels {
     /// sRGB-encoded colour.
     Rgb8(Vec<u8>),
-    /// Labels or masks.
+    /// Labels or masks, or one sRGB-encoded band.
     Gray8(Vec<u8>),
+    /// Linear colour, 65535 is full scale.
+    Rgb16(Vec<u16>),
+    /// One linear band, 65535 is full scale.
+    Gray16(Vec<u16>),
     /// Instance numbers.
     Id32(Vec<u32>),
     /// Metres.

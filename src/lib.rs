@@ -11,6 +11,7 @@
 //! | Scene | [`scene`] | `ShapeTree`s + terrain | [`scene::Scene`] |
 //! | Recipe | [`spec`] | `SourceFile` | [`spec::render_spec::RenderSpec`] |
 //! | Plan | [`plan`] | `RenderSpec` + scene summary | [`plan::RenderPlan`] |
+//! | Sensor | [`sensor`] | linear pixels | [`frame::Pixels`] |
 //! | Truth | [`reference`] | [`plan::demand::ViewDemand`] + `Scene` | [`frame::Frame`] and its standard error |
 //! | Render | [`gpu`] | `RenderPlan` + `Scene` | [`frame::Frame`] |
 //! | Cost | [`cost`] | demands + `Scene` + both renderers | errors, times, the cheapest settings of a budget |
@@ -33,6 +34,7 @@ pub mod pipeline;
 pub mod plan;
 pub mod reference;
 pub mod scene;
+pub mod sensor;
 pub mod source;
 pub mod spec;
 pub mod town;

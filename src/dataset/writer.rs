@@ -60,19 +60,19 @@ pub fn write_image(
         PathBuf::from(name)
     };
     let mut bytes = Vec::new();
+    let mut as_png = |data: &[u8], color: ExtendedColorType| {
+        let name = with_suffix(".png");
+        match png(&mut bytes, data, (width, height), color) {
+            Ok(()) => Ok(name),
+            Err(source) => Err(DatasetError::Png { path: folder.join(&name), source }),
+        }
+    };
     let name = match pixels {
-        Pixels::Rgb8(data) => {
-            let name = with_suffix(".png");
-            png(&mut bytes, data, (width, height), ExtendedColorType::Rgb8)
-                .map_err(|source| DatasetError::Png { path: folder.join(&name), source })?;
-            name
-        }
-        Pixels::Gray8(data) => {
-            let name = with_suffix(".png");
-            png(&mut bytes, data, (width, height), ExtendedColorType::L8)
-                .map_err(|source| DatasetError::Png { path: folder.join(&name), source })?;
-            name
-        }
+        Pixels::Rgb8(data) => as_png(data, ExtendedColorType::Rgb8)?,
+        Pixels::Gray8(data) => as_png(data, ExtendedColorType::L8)?,
+        // The encoder takes words in the machine's order and writes them as PNG has them, the higher byte first.
+        Pixels::Rgb16(data) => as_png(bytemuck::cast_slice(data), ExtendedColorType::Rgb16)?,
+        Pixels::Gray16(data) => as_png(bytemuck::cast_slice(data), ExtendedColorType::L16)?,
         Pixels::Id32(data) => {
             let name = with_suffix(".tif");
             tiff::<Gray32>(&mut bytes, data, (width, height))
@@ -125,6 +125,17 @@ mod tests {
         assert_eq!(file.sha256, sha256(&std::fs::read(&path).expect("written")));
         let (path, _) = write("mask", &Pixels::Gray8(vec![0, 255, 0, 255, 255, 0]));
         assert_eq!(image::open(path).expect("a PNG").to_luma8().into_raw(), [0, 255, 0, 255, 255, 0]);
+        let words: Vec<u16> = (0..18).map(|i| i * 3641 + 5).collect();
+        let (path, _) = write("rgb16", &Pixels::Rgb16(words.clone()));
+        match image::open(path).expect("a PNG") {
+            image::DynamicImage::ImageRgb16(read) => assert_eq!(read.into_raw(), words),
+            other => panic!("16-bit colour came back as {other:?}"),
+        }
+        let (path, _) = write("gray16", &Pixels::Gray16(words[..6].to_vec()));
+        match image::open(path).expect("a PNG") {
+            image::DynamicImage::ImageLuma16(read) => assert_eq!(read.into_raw(), words[..6]),
+            other => panic!("16-bit grey came back as {other:?}"),
+        }
         let ids = vec![0, 1, 70_000, u32::MAX, 5, 6];
         let (path, _) = write("ids", &Pixels::Id32(ids.clone()));
         let mut decoder = tiff::decoder::Decoder::new(std::fs::File::open(path).expect("written")).expect("a TIFF");

@@ -13,7 +13,7 @@ pub mod envelope;
 pub mod extrude;
 pub mod grid;
 #[cfg(test)]
-mod hard_cases;
+pub(crate) mod hard_cases;
 #[cfg(test)]
 mod invariance;
 pub mod largest_rectangle;

@@ -19,6 +19,8 @@ pub struct Gpu {
     pub adapter: Adapter,
     /// Texels per side of the largest texture.
     pub max_texture: u32,
+    /// Whether passes can be timed by the device's clock.
+    pub timestamps: bool,
 }
 
 impl Gpu {
@@ -36,8 +38,10 @@ impl Gpu {
         let adapter = pollster::block_on(instance.request_adapter(&options)).map_err(GpuError::NoAdapter)?;
         let info = adapter.get_info();
         let limits = adapter.limits();
+        let required_features = adapter.features() & wgpu::Features::TIMESTAMP_QUERY;
         let request = wgpu::DeviceDescriptor {
             label: Some("mansard"),
+            required_features,
             required_limits: limits.clone(),
             memory_hints: wgpu::MemoryHints::MemoryUsage,
             ..Default::default()
@@ -50,7 +54,8 @@ impl Gpu {
             software: info.device_type == wgpu::DeviceType::Cpu,
             name: info.name,
         };
-        Ok(Gpu { device, queue, adapter, max_texture: limits.max_texture_dimension_2d })
+        let timestamps = !required_features.is_empty();
+        Ok(Gpu { device, queue, adapter, max_texture: limits.max_texture_dimension_2d, timestamps })
     }
 
     /// Runs `work` and returns the first error that the device reported meanwhile, as one of ours.

@@ -1,33 +1,42 @@
 //! Execute: the stages of a view's plan, tile by tile.
 
 use std::collections::BTreeMap;
+use std::time::Instant;
 
 use super::device::Gpu;
 use super::draws::{self, DrawList};
-use super::passes::{Drawing, depth, ids, resolve, shade, shadow_map};
+use super::passes::shade::Lit;
+use super::passes::{Drawing, depth, field, ids, resolve, shade, shadow_bounds, shadow_map, sky_maps};
 use super::pipelines::Pipelines;
 use super::pools::{Target, TargetPool};
-use super::readback::{Harvest, Readback, blank};
+use super::readback::{Harvest, Picture, Readback};
 use super::tiles::{self, Tile, ViewUniform, light_planes, light_view, panel, panel_view, tile_planes, tile_size};
+use super::timing::{Recorder, Stopwatch};
 use super::upload::{GpuScene, Positions};
 use super::{GpuError, Renderer};
-use crate::frame::{Frame, Image, Pixels};
+use crate::frame::{Frame, Image};
 use crate::plan::ViewPlan;
-use crate::plan::pass::{DrawSet, Pass, PassKind, PipelineKey, ShadowFilter, Stage, Surface};
+use crate::plan::light::LightFrame;
+use crate::plan::pass::{DrawSet, Pass, PassKind, PipelineKey, Stage, Surface};
 use crate::plan::resource::ResourceId;
 
 /// All of a view's images, or, unless `windows` is empty, those parts of them.
 pub fn render(renderer: &mut Renderer, view: &ViewPlan, windows: &[Tile]) -> Result<Frame, GpuError> {
-    let Renderer { gpu, pipelines, targets, scene, readback, max_tile, positions, passes } = renderer;
+    let Renderer { gpu, pipelines, targets, scene, readback, max_tile, positions, passes, stopwatch } = renderer;
+    stopwatch.start_view();
     let scene =
         scene.as_mut().filter(|scene| fits(scene, view)).ok_or_else(|| GpuError::WrongScene(view.name.clone()))?;
+    if let Some(what) = view.not_finite {
+        return Err(GpuError::NotFinite { view: view.name.clone(), what });
+    }
     check_sizes(gpu, view)?;
     targets.keep(view.resources.iter().map(|r| r.texture));
     let max_tile = (*max_tile).min(gpu.max_texture);
     let positions = *positions;
     let task = format!("rendering view {}", view.name);
     let images = gpu.checked(&task, || {
-        let mut execution = Execution { gpu, pipelines, targets, scene, readback, view, windows, max_tile, positions };
+        let mut execution =
+            Execution { gpu, pipelines, targets, scene, readback, stopwatch, view, windows, max_tile, positions };
         execution.run()
     })??;
     *passes += view.passes().count();
@@ -49,7 +58,7 @@ fn check_sizes(gpu: &Gpu, view: &ViewPlan) -> Result<(), GpuError> {
             PassKind::ShadowMap { light, .. } if light.size > gpu.max_texture => {
                 return Err(too_large("a shadow map", light.size));
             }
-            PassKind::Resolve { supersample } if *supersample > 64 => {
+            PassKind::Resolve { supersample, .. } if *supersample > 64 => {
                 return Err(too_large("a number of samples per pixel side", *supersample));
             }
             _ => {}
@@ -72,6 +81,7 @@ struct Execution<'a> {
     targets: &'a mut TargetPool,
     scene: &'a mut GpuScene,
     readback: &'a mut Readback,
+    stopwatch: &'a mut Stopwatch,
     view: &'a ViewPlan,
     windows: &'a [Tile],
     max_tile: u32,
@@ -82,13 +92,13 @@ impl Execution<'_> {
     fn run(&mut self) -> Result<Vec<Image>, GpuError> {
         let products = || self.view.stages.iter().flat_map(|stage| &stage.products);
         let count = products().map(|p| p.index + 1).max().unwrap_or(0);
-        let mut images: Vec<Option<Pixels>> = vec![None; count];
+        let mut images: Vec<Option<Picture>> = (0..count).map(|_| None).collect();
         for product in products() {
-            images[product.index] = Some(blank(self.view, &product.encoding));
+            images[product.index] = Some(Picture::blank(self.view, &product.encoding));
         }
         let names: BTreeMap<usize, &str> = products().map(|p| (p.index, p.pass.as_str())).collect();
 
-        self.scene.place(self.gpu, self.view.camera.position, self.positions);
+        self.scene.place(self.gpu, self.view.camera.origin(), self.positions);
         for stage in &self.view.stages {
             for pass in &stage.passes {
                 self.pipelines.prepare(self.gpu, &pass.pipelines);
@@ -96,8 +106,9 @@ impl Execution<'_> {
             }
             self.stage(stage, &mut images)?;
         }
-        let image =
-            |(pixels, name): (Option<Pixels>, &str)| pixels.map(|pixels| Image { pass: name.to_owned(), pixels });
+        let image = |(picture, name): (Option<Picture>, &str)| {
+            picture.map(|picture| Image { pass: name.to_owned(), pixels: picture.finish(self.view) })
+        };
         Ok(images.into_iter().zip(names.into_values()).filter_map(image).collect())
     }
 
@@ -119,7 +130,7 @@ impl Execution<'_> {
         self.scene.load_textures(self.gpu, &layouts.texture, &layouts.texture_sampler, wanted.into_iter());
     }
 
-    fn stage(&mut self, stage: &Stage, images: &mut [Option<Pixels>]) -> Result<(), GpuError> {
+    fn stage(&mut self, stage: &Stage, images: &mut [Option<Picture>]) -> Result<(), GpuError> {
         let written = stage.passes.iter().flat_map(|pass| &pass.writes);
         let supersample = written.map(|id| self.view.resources[id.0].texture.supersample).max().unwrap_or(1);
         let image = (self.view.camera.width, self.view.camera.height);
@@ -131,13 +142,21 @@ impl Execution<'_> {
         let all = Tile { x: 0, y: 0, width: image.0, height: image.1 };
         let tiles = if stage.tiled { tiles::within(tiles::tiles(image, size), self.windows) } else { vec![all] };
         for tile in tiles {
-            let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
+            let mut recorder = self.stopwatch.recorder(self.gpu);
             let targets = self.stage_targets(stage, size);
             for pass in &stage.passes {
-                self.pass(&mut encoder, pass, (tile, size), &targets);
+                let start = Instant::now();
+                self.pass(&mut recorder, pass, (tile, size), &targets);
+                if self.stopwatch.waits(self.gpu) {
+                    let next = self.stopwatch.recorder(self.gpu);
+                    let recorded = std::mem::replace(&mut recorder, next);
+                    self.stopwatch.submit(self.gpu, recorded, Some((pass.kind.stem(), start)))?;
+                } else if let PassKind::Field { .. } = pass.kind {
+                    self.stopwatch.add(pass.kind.stem(), start.elapsed());
+                }
             }
             let harvest = Harvest { view: self.view, tile, products: &stage.products, targets: &targets };
-            self.readback.collect(self.gpu, encoder, harvest, images)?;
+            self.readback.collect(self.gpu, self.stopwatch, recorder, harvest, images)?;
         }
         Ok(())
     }
@@ -156,48 +175,65 @@ impl Execution<'_> {
 
     fn pass(
         &mut self,
-        encoder: &mut wgpu::CommandEncoder,
+        recorder: &mut Recorder,
         pass: &Pass,
         (tile, size): (Tile, (u32, u32)),
         targets: &BTreeMap<ResourceId, Target>,
     ) {
-        let camera = &self.view.camera;
         let target = |i: usize| &targets[&pass.writes[i]];
         let supersample = self.view.resources[pass.writes[0].0].texture.supersample;
         let at = Place { tile, size, supersample };
+        let (gpu, pipelines) = (self.gpu, &*self.pipelines);
         match &pass.kind {
-            PassKind::ShadowMap { draw, light } => {
-                let planes = light_planes(light, camera.position);
-                let list = draws::gather(self.scene, &draw.objects, camera.position, &planes, false);
-                let uniform = light_view(light, camera.position);
-                let viewport = [0.0, 0.0, light.size as f32, light.size as f32];
-                self.draw(&list, &uniform, viewport, target(0).size, |drawing| {
-                    shadow_map::encode(encoder, drawing, target(0));
-                });
+            PassKind::ShadowMap { draw, light } => self.draw_from(light, draw, |drawing| {
+                shadow_map::encode(recorder, drawing, target(0));
+            }),
+            PassKind::ShadowBounds { light } => {
+                shadow_bounds::encode(recorder, gpu, pipelines, light, (&targets[&pass.reads[0]], target(0)));
             }
-            PassKind::Shade { draw, sun, ambient, light } => {
-                let uniform = shade::light_uniform(camera.position, sun.as_ref(), *ambient, light.as_ref());
-                let shadow_map = pass.reads.first().map(|id| &targets[id]);
-                let layouts = &self.pipelines.layouts;
-                let light = shade::light_group(self.gpu, layouts, &uniform, &self.scene.materials, shadow_map);
-                let filter = shadow_filter(pass);
+            PassKind::SkyMaps { draw, frames } => {
+                for (layer, light) in (0..).zip(frames.iter()) {
+                    let layer = target(0).layer(layer);
+                    self.draw_from(light, draw, |drawing| sky_maps::encode(recorder, drawing, &layer));
+                }
+            }
+            PassKind::Field { field, frame } => field::upload(gpu, field, frame, target(0)),
+            PassKind::Shade { draw, light } => {
+                let terms = light.terms();
+                let lit = Lit {
+                    origin: self.view.camera.origin(),
+                    light,
+                    side: supersample,
+                    materials: &self.scene.materials,
+                    targets,
+                };
+                // Where nothing is drawn no pipeline was made, nor its layout.
+                let layout = pipelines.light(terms).cloned().unwrap_or_else(|| shade::layout(gpu, terms));
+                let group = shade::group(gpu, &pipelines.layouts, &layout, &lit);
                 self.draw_tile(draw, at, true, |drawing| {
-                    shade::encode(encoder, drawing, &light, filter, (target(0), target(1)));
+                    shade::encode(recorder, drawing, &group, (terms, light.bands), (target(0), target(1)));
                 });
             }
-            PassKind::Resolve { supersample } => {
-                let radiance = &targets[&pass.reads[0]];
-                let (gpu, pipelines) = (self.gpu, &*self.pipelines);
-                let area = (tile.width, tile.height);
-                resolve::encode(encoder, gpu, pipelines, *supersample, (radiance, target(0)), area);
+            PassKind::Resolve { supersample, linear } => {
+                let key = PipelineKey::Resolve { supersample: *supersample, linear: *linear };
+                let (radiance, area) = (&targets[&pass.reads[0]], (tile.width, tile.height));
+                resolve::encode(recorder, gpu, pipelines, key, (radiance, target(0)), area);
             }
             PassKind::Ids { draw } => {
-                self.draw_tile(draw, at, false, |drawing| ids::encode(encoder, drawing, target(0), target(1)));
+                self.draw_tile(draw, at, false, |drawing| ids::encode(recorder, drawing, target(0), target(1)));
             }
             PassKind::Depth { draw } => {
-                self.draw_tile(draw, at, false, |drawing| depth::encode(encoder, drawing, target(0)));
+                self.draw_tile(draw, at, false, |drawing| depth::encode(recorder, drawing, target(0)));
             }
         }
+    }
+
+    /// Draws what a map of depth shows of a selection.
+    fn draw_from(&self, light: &LightFrame, draw: &DrawSet, encode: impl FnOnce(&Drawing)) {
+        let (eye, origin) = (self.view.camera.position, self.view.camera.origin());
+        let list = draws::gather(self.scene, &draw.objects, eye, &light_planes(light, eye), false);
+        let viewport = [0.0, 0.0, light.size as f32, light.size as f32];
+        self.draw(&list, &light_view(light, origin), viewport, (light.size, light.size), encode);
     }
 
     /// Draws what a tile shows of a selection; textures matter `by_texture`, or only where they have holes.
@@ -230,13 +266,4 @@ impl Execution<'_> {
         let indices = &self.gpu.buffer("indices", bytemuck::cast_slice(&list.indices), wgpu::BufferUsages::INDEX);
         encode(&Drawing { pipelines: self.pipelines, scene: self.scene, list, indices, view, viewport, area });
     }
-}
-
-/// The filter of the pipelines that a shading declares.
-fn shadow_filter(pass: &Pass) -> ShadowFilter {
-    let filter = |key: &PipelineKey| match key {
-        PipelineKey::Shade { shadow, .. } => Some(*shadow),
-        _ => None,
-    };
-    pass.pipelines.iter().find_map(filter).unwrap_or(ShadowFilter::Unshadowed)
 }

@@ -1,19 +1,23 @@
 //! Render: render plan + scene → frames. The only user of wgpu.
 //!
-//! Positions reach the GPU as f32 relative to the camera, subtracted in f64. Depth is reversed 32-bit float with the
-//! far plane at infinity (parallel projection: at the scene's far end). Images are drawn in tiles; colour is linear
-//! 16-bit float, averaged over k × k samples per pixel and encoded to sRGB last; object numbers are drawn at pixel
-//! centres into 32-bit integers. A surface is drawn iff its opacity (material times texel) is at least one half.
+//! Positions reach the GPU as f32 about the point where the camera's axis enters the scene, subtracted in f64
+//! ([`crate::plan::demand::Camera::origin`]): however far the camera is, the scene keeps its digits. Depth is reversed
+//! 32-bit float from the near plane to the scene's far end. Images are drawn in tiles; colour is linear 16-bit float,
+//! averaged over k × k samples per pixel and encoded to sRGB last; object numbers are drawn at pixel centres into 32-bit
+//! integers. A surface is drawn iff its opacity (material times texel) is at least one half.
 
 mod device;
 mod draws;
 mod execute;
+mod junctions;
 mod mipmaps;
 mod passes;
 mod pipelines;
 mod pools;
 mod readback;
+mod source;
 mod tiles;
+mod timing;
 mod upload;
 
 use crate::frame::Frame;
@@ -39,6 +43,10 @@ pub enum GpuError {
     Failed { adapter: String, task: String, reason: String },
     #[error("view {view}: {what} of {wanted} is more than the {limit} that adapter {adapter} allows")]
     TooLarge { adapter: String, view: String, what: &'static str, wanted: u64, limit: u64 },
+    #[error("view {view}: a number of {what} is not finite")]
+    NotFinite { view: String, what: &'static str },
+    #[error("object {object} (instance {instance}): the {what} of vertex {vertex} is not a finite number")]
+    NotFiniteMesh { object: usize, instance: u32, what: &'static str, vertex: usize },
     #[error("view {0} was planned for another scene, or no scene was uploaded")]
     WrongScene(String),
 }
@@ -53,6 +61,7 @@ pub struct Renderer {
     max_tile: u32,
     positions: Positions,
     passes: usize,
+    stopwatch: timing::Stopwatch,
 }
 
 impl Renderer {
@@ -61,8 +70,9 @@ impl Renderer {
         let gpu = device::Gpu::open()?;
         let pipelines = pipelines::Pipelines::new(&gpu);
         let (targets, readback) = (pools::TargetPool::default(), readback::Readback::default());
-        let (max_tile, positions) = (tiles::TILE_SAMPLES, Positions::default());
-        Ok(Renderer { gpu, pipelines, targets, scene: None, readback, max_tile, positions, passes: 0 })
+        let (max_tile, stopwatch) = (tiles::TILE_SAMPLES, timing::Stopwatch::default());
+        let positions = Positions::default();
+        Ok(Renderer { gpu, pipelines, targets, scene: None, readback, max_tile, positions, passes: 0, stopwatch })
     }
 
     /// Name and driver, for the manifest.
@@ -76,8 +86,21 @@ impl Renderer {
         self.targets = pools::TargetPool::default();
     }
 
+    /// Whether passes are timed from now on; that waits for the device more often. Off at first.
+    pub fn set_timed(&mut self, timed: bool) {
+        self.stopwatch.set(timed);
+    }
+
+    /// Word of each kind of pass in the view rendered last, in the order of their first runs, with the seconds that all
+    /// runs took: by the clock of the device if it has one, by ours otherwise. Empty unless timed.
+    pub fn timings(&self) -> &[(String, f64)] {
+        &self.stopwatch.times
+    }
+
     /// Puts a scene on the device, in place of any other. Objects of both states are there once.
     pub fn upload(&mut self, scene: &Scene) -> Result<(), GpuError> {
+        self.scene = None;
+        upload::check(scene)?;
         let uploaded = self.gpu.checked("uploading the scene", || upload::GpuScene::new(&self.gpu, scene))?;
         self.scene = Some(uploaded);
         Ok(())

@@ -3,32 +3,19 @@
 use std::collections::BTreeMap;
 
 use super::device::Gpu;
-use super::passes::{depth, ids, resolve, shade, shadow_map};
+use super::passes::{depth, ids, resolve, shade, shadow_bounds, shadow_map};
 use super::pools::texture_format;
+use super::source::{module_name, shader_source};
 use crate::plan::pass::PipelineKey;
 use crate::plan::resource::Format;
-
-/// Source of a pass's shader: the common part, then its own file.
-pub fn shader_source(stem: &str) -> &'static str {
-    macro_rules! joined {
-        ($($file:literal),*) => { concat!($(include_str!(concat!("shaders/", $file, ".wgsl")), "\n"),*) };
-    }
-    match stem {
-        "shadow_map" => joined!("common", "cutout", "shadow_map"),
-        "shade" => joined!("common", "shade"),
-        "ids" => joined!("common", "cutout", "ids"),
-        "depth" => joined!("common", "cutout", "depth"),
-        "resolve" => joined!("resolve"),
-        _ => unreachable!("passes name their own stems"),
-    }
-}
+use crate::plan::shading::Terms;
 
 /// Bind group layouts by their use, and samplers.
 pub struct Layouts {
     pub view: wgpu::BindGroupLayout,
     pub texture: wgpu::BindGroupLayout,
-    pub light: wgpu::BindGroupLayout,
-    pub shadowed_light: wgpu::BindGroupLayout,
+    pub first_bounds: wgpu::BindGroupLayout,
+    pub halved_bounds: wgpu::BindGroupLayout,
     pub resolve: wgpu::BindGroupLayout,
     pub texture_sampler: wgpu::Sampler,
     pub gather_sampler: wgpu::Sampler,
@@ -37,32 +24,46 @@ pub struct Layouts {
 
 pub struct Pipelines {
     pub layouts: Layouts,
-    modules: BTreeMap<&'static str, wgpu::ShaderModule>,
+    lights: BTreeMap<Terms, wgpu::BindGroupLayout>,
+    modules: BTreeMap<String, wgpu::ShaderModule>,
     pipelines: BTreeMap<PipelineKey, wgpu::RenderPipeline>,
 }
 
 impl Pipelines {
     pub fn new(gpu: &Gpu) -> Pipelines {
-        Pipelines { layouts: Layouts::new(gpu), modules: BTreeMap::new(), pipelines: BTreeMap::new() }
+        let layouts = Layouts::new(gpu);
+        Pipelines { layouts, lights: BTreeMap::new(), modules: BTreeMap::new(), pipelines: BTreeMap::new() }
     }
 
     /// Compiles what is missing of `keys`.
     pub fn prepare(&mut self, gpu: &Gpu, keys: &[PipelineKey]) {
         for &key in keys {
             if !self.pipelines.contains_key(&key) {
-                let stem = stem(key);
-                let module = self.modules.entry(stem).or_insert_with(|| compile(gpu, stem));
-                let pipeline = match key {
-                    PipelineKey::ShadowMap { cutout } => shadow_map::pipeline(gpu, &self.layouts, module, cutout),
-                    PipelineKey::Shade { surface, shadow } => {
-                        shade::pipeline(gpu, &self.layouts, module, surface, shadow)
-                    }
-                    PipelineKey::Resolve { supersample } => resolve::pipeline(gpu, &self.layouts, module, supersample),
-                    PipelineKey::Ids { cutout } => ids::pipeline(gpu, &self.layouts, module, cutout),
-                    PipelineKey::Depth { cutout } => depth::pipeline(gpu, &self.layouts, module, cutout),
-                };
+                let pipeline = self.compile(gpu, key);
                 self.pipelines.insert(key, pipeline);
             }
+        }
+    }
+
+    fn compile(&mut self, gpu: &Gpu, key: PipelineKey) -> wgpu::RenderPipeline {
+        let layouts = &self.layouts;
+        let name = module_name(key);
+        let module = self.modules.entry(name.clone()).or_insert_with(|| {
+            let source = wgpu::ShaderSource::Wgsl(shader_source(key).into());
+            gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor { label: Some(&name), source })
+        });
+        match key {
+            PipelineKey::ShadowMap { cutout } => shadow_map::pipeline(gpu, layouts, module, cutout),
+            PipelineKey::ShadowBounds { first } => shadow_bounds::pipeline(gpu, layouts, module, first),
+            PipelineKey::Shade { surface, terms } => {
+                let light = self.lights.entry(terms).or_insert_with(|| shade::layout(gpu, terms));
+                shade::pipeline(gpu, layouts, light, module, (surface, terms))
+            }
+            PipelineKey::Resolve { supersample, linear } => {
+                resolve::pipeline(gpu, layouts, module, supersample, linear)
+            }
+            PipelineKey::Ids { cutout } => ids::pipeline(gpu, layouts, module, cutout),
+            PipelineKey::Depth { cutout } => depth::pipeline(gpu, layouts, module, cutout),
         }
     }
 
@@ -74,24 +75,14 @@ impl Pipelines {
         self.layouts.texture_sampler = texture_sampler(gpu, filter);
     }
 
+    /// Layout of the light of pipelines with these terms; `None` before any was made.
+    pub fn light(&self, terms: Terms) -> Option<&wgpu::BindGroupLayout> {
+        self.lights.get(&terms)
+    }
+
     pub fn created(&self) -> usize {
         self.pipelines.len()
     }
-}
-
-fn stem(key: PipelineKey) -> &'static str {
-    match key {
-        PipelineKey::ShadowMap { .. } => "shadow_map",
-        PipelineKey::Shade { .. } => "shade",
-        PipelineKey::Resolve { .. } => "resolve",
-        PipelineKey::Ids { .. } => "ids",
-        PipelineKey::Depth { .. } => "depth",
-    }
-}
-
-fn compile(gpu: &Gpu, stem: &'static str) -> wgpu::ShaderModule {
-    let source = wgpu::ShaderSource::Wgsl(shader_source(stem).into());
-    gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor { label: Some(stem), source })
 }
 
 /// What differs between the pipelines that draw triangles of the scene.
@@ -105,7 +96,6 @@ pub struct GeometryPipeline<'a> {
     pub attributes: bool,
     /// Without gaps: pipelines that share a pass then agree on all groups but the last.
     pub groups: &'a [&'a wgpu::BindGroupLayout],
-    pub constants: &'a [(&'a str, f64)],
 }
 
 impl GeometryPipeline<'_> {
@@ -117,13 +107,12 @@ impl GeometryPipeline<'_> {
             Some(wgpu::VertexBufferLayout { array_stride, step_mode: wgpu::VertexStepMode::Vertex, attributes })
         };
         let buffers = [buffer(12, &position), buffer(24, &others)];
-        let options = wgpu::PipelineCompilationOptions { constants: self.constants, ..Default::default() };
         let targets = self.fragment.and_then(|(_, format)| format).map(|f| [Some(texture_format(f).into())]);
         let targets = targets.as_ref().map_or(&[][..], |t| t);
         let fragment = self.fragment.map(|(entry, _)| wgpu::FragmentState {
             module: self.module,
             entry_point: Some(entry),
-            compilation_options: options.clone(),
+            compilation_options: Default::default(),
             targets,
         });
         gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
@@ -163,11 +152,11 @@ pub fn pipeline_layout(gpu: &Gpu, label: &str, groups: &[&wgpu::BindGroupLayout]
 impl Layouts {
     fn new(gpu: &Gpu) -> Layouts {
         use wgpu::{BufferBindingType, SamplerBindingType, ShaderStages, TextureSampleType};
-        let group = |label: &str, bindings: &[(ShaderStages, wgpu::BindingType)]| {
-            let entry = |(binding, &(visibility, ty)): (usize, &(ShaderStages, wgpu::BindingType))| {
-                wgpu::BindGroupLayoutEntry { binding: binding as u32, visibility, ty, count: None }
+        let group = |label: &str, bindings: &[(u32, ShaderStages, wgpu::BindingType)]| {
+            let entry = |&(binding, visibility, ty): &(u32, ShaderStages, wgpu::BindingType)| {
+                wgpu::BindGroupLayoutEntry { binding, visibility, ty, count: None }
             };
-            let entries: Vec<_> = bindings.iter().enumerate().map(entry).collect();
+            let entries: Vec<_> = bindings.iter().map(entry).collect();
             let descriptor = wgpu::BindGroupLayoutDescriptor { label: Some(label), entries: &entries };
             gpu.device.create_bind_group_layout(&descriptor)
         };
@@ -180,21 +169,17 @@ impl Layouts {
         let filterable = texture(TextureSampleType::Float { filterable: true });
         let (vertex, fragment) = (ShaderStages::VERTEX, ShaderStages::FRAGMENT);
         let filtering = wgpu::BindingType::Sampler(SamplerBindingType::Filtering);
-        let unfiltered = wgpu::BindingType::Sampler(SamplerBindingType::NonFiltering);
-        let materials = buffer(BufferBindingType::Storage { read_only: true });
         let uniform = buffer(BufferBindingType::Uniform);
-        let lighting = [
-            (vertex | fragment, uniform),
-            (vertex, materials),
-            (fragment, texture(TextureSampleType::Depth)),
-            (fragment, unfiltered),
-        ];
+        let blocks = texture(TextureSampleType::Float { filterable: false });
         Layouts {
-            view: group("view", &[(vertex, uniform)]),
-            texture: group("color texture", &[(fragment, filterable), (fragment, filtering)]),
-            light: group("light", &lighting[..2]),
-            shadowed_light: group("shadowed light", &lighting),
-            resolve: group("resolve", &[(fragment, filterable), (fragment, filtering)]),
+            view: group("view", &[(0, vertex | fragment, uniform)]),
+            texture: group("color texture", &[(0, fragment, filterable), (1, fragment, filtering)]),
+            first_bounds: group(
+                "first bounds",
+                &[(0, fragment, uniform), (1, fragment, texture(TextureSampleType::Depth))],
+            ),
+            halved_bounds: group("halved bounds", &[(2, fragment, blocks)]),
+            resolve: group("resolve", &[(0, fragment, filterable), (1, fragment, filtering)]),
             texture_sampler: texture_sampler(gpu, TextureFilter::default()),
             gather_sampler: gpu.device.create_sampler(&wgpu::SamplerDescriptor::default()),
             linear_sampler: gpu.device.create_sampler(&wgpu::SamplerDescriptor {

@@ -6,14 +6,47 @@ use super::GpuError;
 use super::device::Gpu;
 use super::pools::Target;
 use super::tiles::Tile;
+use super::timing::{Recorder, Stopwatch};
 use crate::frame::Pixels;
 use crate::plan::ViewPlan;
 use crate::plan::demand::Projection;
+use crate::plan::effects::Sensor;
 use crate::plan::pass::{Encoding, Product};
-use crate::plan::resource::ResourceId;
+use crate::plan::resource::{Format, ResourceId};
+use crate::sensor::develop;
 
-/// Bytes per texel of everything that is read back.
-const TEXEL: u32 = 4;
+/// An image that tiles are written to.
+pub enum Picture {
+    Done(Pixels),
+    /// What a sensor will take, row by row.
+    Linear(Vec<[f32; 3]>, Sensor),
+}
+
+impl Picture {
+    /// An image of the view's size for pixels of this encoding.
+    pub fn blank(view: &ViewPlan, encoding: &Encoding) -> Picture {
+        let pixels = view.camera.width as usize * view.camera.height as usize;
+        Picture::Done(match encoding {
+            Encoding::Sensor(sensor) => return Picture::Linear(vec![[0.0; 3]; pixels], *sensor),
+            Encoding::Color => Pixels::Rgb8(vec![0; pixels * 3]),
+            Encoding::Label(_) => Pixels::Gray8(vec![0; pixels]),
+            Encoding::Number(_) => Pixels::Id32(vec![0; pixels]),
+            Encoding::Distance => Pixels::Float32(vec![f32::INFINITY; pixels]),
+        })
+    }
+
+    pub fn finish(self, view: &ViewPlan) -> Pixels {
+        match self {
+            Picture::Done(pixels) => pixels,
+            Picture::Linear(linear, sensor) => develop(&linear, (view.camera.width, view.camera.height), &sensor),
+        }
+    }
+}
+
+/// Bytes per texel of what is read back.
+fn texel_bytes(format: Format) -> u32 {
+    if format == Format::Linear32 { 16 } else { 4 }
+}
 
 /// What is read of a stage: the products of one tile.
 pub struct Harvest<'a> {
@@ -42,28 +75,30 @@ impl Readback {
         self.buffer.as_ref().expect("it was made above")
     }
 
-    /// Submits `encoder` followed by copies of the targets, waits, and hands each product's rows
+    /// Submits what was recorded followed by copies of the targets, waits, and hands each product's rows
     /// to its image.
     pub fn collect(
         &mut self,
         gpu: &Gpu,
-        mut encoder: wgpu::CommandEncoder,
+        stopwatch: &mut Stopwatch,
+        mut recorder: Recorder,
         harvest: Harvest,
-        images: &mut [Option<Pixels>],
+        images: &mut [Option<Picture>],
     ) -> Result<(), GpuError> {
         let Harvest { view, tile, products, targets } = harvest;
-        // Depth can only be copied as a whole; the targets of a stage's products have one size.
+        // Depth can only be copied as a whole; the targets of a stage's products have one size, also per texel.
         let (width, height) = products.first().map_or((0, 0), |p| targets[&p.source].size);
-        let stride = (width * TEXEL).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+        let texel = products.first().map_or(4, |p| texel_bytes(view.resources[p.source.0].texture.format));
+        let stride = (width * texel).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
         let size = u64::from(stride) * u64::from(height);
         let mut sources: Vec<ResourceId> = products.iter().map(|p| p.source).collect();
         sources.sort();
         sources.dedup();
         let buffer = self.reserve(gpu, size * sources.len() as u64);
         for (i, source) in sources.iter().enumerate() {
-            copy(&mut encoder, &targets[source], buffer, i as u64 * size, stride);
+            copy(&mut recorder.encoder, &targets[source], buffer, i as u64 * size, stride);
         }
-        gpu.queue.submit([encoder.finish()]);
+        stopwatch.submit(gpu, recorder, None)?;
         if sources.is_empty() {
             return Ok(());
         }
@@ -77,10 +112,10 @@ impl Readback {
         for product in products {
             let place = sources.binary_search(&product.source).expect("every product's source is in the list");
             let rows = mapped[place * size as usize..][..size as usize].chunks_exact(stride as usize);
-            let image = images[product.index].get_or_insert_with(|| blank(view, &product.encoding));
+            let image = images[product.index].as_mut().expect("every product has a blank image");
             for (y, row) in rows.take(tile.height as usize).enumerate() {
                 let at = (tile.y as usize + y) * view.camera.width as usize + tile.x as usize;
-                write_row(view, &product.encoding, &row[..(tile.width * TEXEL) as usize], image, at);
+                write_row(view, &product.encoding, &row[..(tile.width * texel) as usize], image, at);
             }
         }
         drop(mapped);
@@ -100,21 +135,19 @@ fn copy(encoder: &mut wgpu::CommandEncoder, target: &Target, buffer: &wgpu::Buff
     );
 }
 
-/// An image of the view's size for pixels of this encoding.
-pub fn blank(view: &ViewPlan, encoding: &Encoding) -> Pixels {
-    let pixels = view.camera.width as usize * view.camera.height as usize;
-    match encoding {
-        Encoding::Color => Pixels::Rgb8(vec![0; pixels * 3]),
-        Encoding::Label(_) => Pixels::Gray8(vec![0; pixels]),
-        Encoding::Number(_) => Pixels::Id32(vec![0; pixels]),
-        Encoding::Distance => Pixels::Float32(vec![f32::INFINITY; pixels]),
-    }
-}
-
 /// Writes a row of texels to the pixels of `image` from `at` on.
-fn write_row(view: &ViewPlan, encoding: &Encoding, row: &[u8], image: &mut Pixels, at: usize) {
-    let texels = row.chunks_exact(TEXEL as usize).map(|t| [t[0], t[1], t[2], t[3]]);
-    match (encoding, image) {
+fn write_row(view: &ViewPlan, encoding: &Encoding, row: &[u8], image: &mut Picture, at: usize) {
+    let pixels = match image {
+        Picture::Linear(pixels, _) => {
+            let float = |t: &[u8], c: usize| f32::from_le_bytes(std::array::from_fn(|i| t[4 * c + i]));
+            let texels = row.chunks_exact(16).map(|t| [0, 1, 2].map(|c| float(t, c)));
+            pixels[at..].iter_mut().zip(texels).for_each(|(p, t)| *p = t);
+            return;
+        }
+        Picture::Done(pixels) => pixels,
+    };
+    let texels = row.chunks_exact(4).map(|t| [t[0], t[1], t[2], t[3]]);
+    match (encoding, pixels) {
         (Encoding::Color, Pixels::Rgb8(pixels)) => {
             let pixels = pixels[at * 3..].chunks_exact_mut(3);
             pixels.zip(texels).for_each(|(p, t)| p.copy_from_slice(&t[..3]));
@@ -128,7 +161,7 @@ fn write_row(view: &ViewPlan, encoding: &Encoding, row: &[u8], image: &mut Pixel
         (Encoding::Distance, Pixels::Float32(pixels)) => {
             pixels[at..].iter_mut().zip(texels).for_each(|(p, t)| *p = distance(view, f32::from_le_bytes(t)));
         }
-        _ => unreachable!("blank made the image for this encoding"),
+        _ => unreachable!("`Picture::blank` made the image for this encoding"),
     }
 }
 
@@ -139,7 +172,7 @@ fn distance(view: &ViewPlan, depth: f32) -> f32 {
         return f32::INFINITY;
     }
     match view.camera.projection {
-        Projection::Perspective { .. } => (near / f64::from(depth)) as f32,
+        Projection::Perspective { .. } => (near * far / (near + f64::from(depth) * (far - near))) as f32,
         Projection::Orthographic { .. } => (far - f64::from(depth) * (far - near)) as f32,
     }
 }

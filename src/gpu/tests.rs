@@ -3,6 +3,8 @@
 
 mod coverage;
 mod economy;
+mod effects;
+mod hard;
 mod lighting;
 mod shaders;
 mod tiling;

@@ -83,8 +83,9 @@ pub fn panel(image: (u32, u32), tile: Tile, size: (u32, u32), supersample: u32, 
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct ViewUniform {
-    pub clip_from_camera: [[f32; 4]; 4],
+    pub clip_from_origin: [[f32; 4]; 4],
     pub forward: [f32; 4],
+    pub to_origin: [f32; 4],
     pub image_half: [f32; 2],
     pub panel_center: [f32; 2],
     pub panel_half: [f32; 2],
@@ -99,17 +100,21 @@ fn row(axis: DVec3, constant: f64) -> [f32; 4] {
 /// View of a panel.
 pub fn panel_view(camera: &Camera, far: f64, panel: Tile, supersample: u32) -> ViewUniform {
     let parallel = matches!(camera.projection, Projection::Orthographic { .. });
-    let clip_from_camera = match camera.projection {
+    let (to_origin, range) = (camera.to_origin(), far - camera.near);
+    // Of a point from the origin: how far it is from the camera along an axis, times a factor.
+    let along = |axis: DVec3, factor: f64| row(axis * factor, axis.dot(to_origin) * factor);
+    let beyond = |factor: f64| row(-camera.forward * factor, (far - camera.forward.dot(to_origin)) * factor);
+    let clip_from_origin = match camera.projection {
         Projection::Perspective { tan_x, tan_y } => [
-            row(camera.right / tan_x, 0.0),
-            row(camera.up / tan_y, 0.0),
-            row(DVec3::ZERO, camera.near),
-            row(camera.forward, 0.0),
+            along(camera.right, 1.0 / tan_x),
+            along(camera.up, 1.0 / tan_y),
+            beyond(camera.near / range),
+            along(camera.forward, 1.0),
         ],
         Projection::Orthographic { half_x, half_y } => [
-            row(camera.right / half_x, 0.0),
-            row(camera.up / half_y, 0.0),
-            row(-camera.forward / (far - camera.near), far / (far - camera.near)),
+            along(camera.right, 1.0 / half_x),
+            along(camera.up, 1.0 / half_y),
+            beyond(1.0 / range),
             row(DVec3::ZERO, 1.0),
         ],
     };
@@ -119,8 +124,9 @@ pub fn panel_view(camera: &Camera, far: f64, panel: Tile, supersample: u32) -> V
     let right = f64::from(panel.x * supersample) + panel_half[0] - image_half[0];
     let down = f64::from(panel.y * supersample) + panel_half[1] - image_half[1];
     ViewUniform {
-        clip_from_camera,
+        clip_from_origin,
         forward: row(camera.forward, if parallel { 1.0 } else { 0.0 }),
+        to_origin: row(to_origin, 0.0),
         image_half: image_half.map(|v| v as f32),
         panel_center: [right as f32, -down as f32],
         panel_half: panel_half.map(|v| v as f32),
@@ -129,17 +135,18 @@ pub fn panel_view(camera: &Camera, far: f64, panel: Tile, supersample: u32) -> V
     }
 }
 
-/// View of a whole shadow map; row 0 of the map is the least `v`.
-pub fn light_view(light: &LightFrame, camera: DVec3) -> ViewUniform {
-    let [u, v, depth] = light_rows(light, camera);
+/// View of a whole shadow map of positions from `origin`; row 0 of the map is the least `v`.
+pub fn light_view(light: &LightFrame, origin: DVec3) -> ViewUniform {
+    let [u, v, depth] = light_rows(light, origin);
     let to_clip = |row: [f64; 4], scale: f64| {
         let [x, y, z, w] = row.map(|c| c * 2.0 * scale / f64::from(light.size));
         [x as f32, y as f32, z as f32, (w - scale) as f32]
     };
     let half = light.size as f32 / 2.0;
     ViewUniform {
-        clip_from_camera: [to_clip(u, 1.0), to_clip(v, -1.0), depth.map(|c| c as f32), [0.0, 0.0, 0.0, 1.0]],
+        clip_from_origin: [to_clip(u, 1.0), to_clip(v, -1.0), depth.map(|c| c as f32), [0.0, 0.0, 0.0, 1.0]],
         forward: row(-light.direction, 1.0),
+        to_origin: [0.0; 4],
         image_half: [half; 2],
         panel_center: [0.0; 2],
         panel_half: [half; 2],
@@ -148,9 +155,9 @@ pub fn light_view(light: &LightFrame, camera: DVec3) -> ViewUniform {
     }
 }
 
-/// Rows from camera-relative metres to texel column, texel row and depth of the map.
-pub fn light_rows(light: &LightFrame, camera: DVec3) -> [[f64; 4]; 3] {
-    let offset = camera - light.anchor;
+/// Rows from metres about `origin` to texel column, texel row and depth of the map.
+pub fn light_rows(light: &LightFrame, origin: DVec3) -> [[f64; 4]; 3] {
+    let offset = origin - light.anchor;
     let range = light.high - light.low;
     let rows = [
         (light.u / light.texel.x, offset.dot(light.u) / light.texel.x - light.corner.x),

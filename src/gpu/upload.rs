@@ -1,19 +1,22 @@
 //! Upload: the scene's meshes as vertex buffers, its materials and textures; each object once.
 //!
-//! Attributes go to the device once; positions are written anew for each camera, relative to it (see [`GpuScene::place`]).
+//! Attributes go to the device once; positions are written anew for each camera, about its origin (see [`GpuScene::place`]).
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::sync::Arc;
 
 use glam::DVec3;
 
+use super::GpuError;
 use super::device::Gpu;
+use super::junctions;
 use super::mipmaps::{self, linear_from_srgb};
 use crate::interpreter::material::{MapTransform, Material};
 use crate::plan::pass::Surface;
 use crate::plan::summary::material_surfaces;
-use crate::scene::{Scene, SceneClass, SceneObject};
+use crate::scene::reflectance::near_infrared_gain;
+use crate::scene::{Scene, SceneClass, SceneObject, TriMesh};
 
 /// What a vertex carries besides its position.
 #[repr(C)]
@@ -71,23 +74,30 @@ impl GpuScene {
             scene.textures.binary_search_by(|(other, _)| other.cmp(name)).ok()
         };
         let (mut world, mut attributes) = (Vec::new(), Vec::<Attributes>::new());
+        let mut numbers = MaterialNumbers::default();
         let (mut chunks, mut indices) = (Vec::new(), Vec::new());
         for (number, object) in scene.objects.iter().enumerate() {
+            let mesh = junctions::conforming(&object.mesh);
             let base = world.len() as u32;
-            world.extend_from_slice(&object.mesh.positions);
-            push_attributes(&mut attributes, number, object, &scene.materials);
-            for group in object.mesh.groups.iter().filter(|g| g.count > 0) {
+            world.extend_from_slice(&mesh.positions);
+            push_attributes(&mut attributes, (number, object.class), &mesh, &scene.materials, &mut numbers);
+            for group in mesh.groups.iter().filter(|g| g.count > 0) {
                 let material = group.material as usize;
                 let Some(surface) = surfaces[material] else { continue };
                 let start = indices.len();
-                let triangles = &object.mesh.triangles[group.first as usize..][..group.count as usize];
+                let triangles = &mesh.triangles[group.first as usize..][..group.count as usize];
                 indices.extend(triangles.iter().flatten().map(|i| i + base));
                 let texture = texture_of(material).filter(|_| surface != Surface::Plain);
                 chunks.push(Chunk { object: number, surface, texture, indices: start..indices.len() });
             }
         }
+        let color = |&(class, material): &(SceneClass, u32)| {
+            let material = &scene.materials[material as usize];
+            let [r, g, b] = material.color.map(|c| linear_from_srgb(c.clamp(0.0, 1.0)) as f32);
+            [r, g, b, near_infrared_gain(class, material) as f32]
+        };
+        let materials: Vec<[f32; 4]> = numbers.order.iter().map(color).collect();
         chunks.sort_by_key(|c| (layer(scene.objects[c.object].class), c.surface, c.texture, c.object));
-        let materials: Vec<[f32; 4]> = scene.materials.iter().map(|m| linear_color(m.color)).collect();
         let empty_positions = vec![0u8; world.len() * 12];
         GpuScene {
             chunks,
@@ -103,19 +113,19 @@ impl GpuScene {
         }
     }
 
-    /// Writes all positions as f32 metres from `eye`, subtracted in f64: equal points stay equal, so faces that meet
+    /// Writes all positions as f32 metres from `origin`, subtracted in f64: equal points stay equal, so faces that meet
     /// in the scene meet on the image.
-    pub fn place(&mut self, gpu: &Gpu, eye: DVec3, positions: Positions) {
-        if self.placed == Some((eye, positions)) {
+    pub fn place(&mut self, gpu: &Gpu, origin: DVec3, positions: Positions) {
+        if self.placed == Some((origin, positions)) {
             return;
         }
-        let from_eye = |&p: &DVec3| match positions {
-            Positions::AboutCamera => (p - eye).as_vec3().to_array(),
-            Positions::AboutOrigin => (p.as_vec3() - eye.as_vec3()).to_array(),
+        let rounded = |&p: &DVec3| match positions {
+            Positions::AboutCamera => (p - origin).as_vec3().to_array(),
+            Positions::AboutOrigin => (p.as_vec3() - origin.as_vec3()).to_array(),
         };
-        let relative: Vec<[f32; 3]> = self.world.iter().map(from_eye).collect();
+        let relative: Vec<[f32; 3]> = self.world.iter().map(rounded).collect();
         gpu.queue.write_buffer(&self.positions, 0, bytemuck::cast_slice(&relative));
-        self.placed = Some((eye, positions));
+        self.placed = Some((origin, positions));
     }
 
     /// Makes the bind groups of these textures.
@@ -149,6 +159,22 @@ impl GpuScene {
     }
 }
 
+/// Fails on the first number of a mesh that is not finite.
+pub fn check(scene: &Scene) -> Result<(), GpuError> {
+    for (number, object) in scene.objects.iter().enumerate() {
+        let mesh = &object.mesh;
+        let first = [
+            ("position", mesh.positions.iter().position(|p| !p.is_finite())),
+            ("normal", mesh.normals.iter().position(|n| !n.is_finite())),
+            ("texture coordinate", mesh.uvs.iter().position(|uv| !uv.is_finite())),
+        ];
+        if let Some((what, vertex)) = first.into_iter().find_map(|(what, at)| at.map(|at| (what, at))) {
+            return Err(GpuError::NotFiniteMesh { object: number, instance: object.instance, what, vertex });
+        }
+    }
+    Ok(())
+}
+
 /// Drawing order of the layers, the uppermost first.
 fn layer(class: SceneClass) -> u8 {
     match class {
@@ -162,11 +188,32 @@ fn layer(class: SceneClass) -> u8 {
     }
 }
 
-fn push_attributes(attributes: &mut Vec<Attributes>, number: usize, object: &SceneObject, materials: &[Arc<Material>]) {
-    let mesh = &object.mesh;
+/// Numbers of the materials as the device sees them: what one reflects depends on the class of its object, too.
+#[derive(Default)]
+struct MaterialNumbers {
+    numbers: BTreeMap<(SceneClass, u32), u32>,
+    order: Vec<(SceneClass, u32)>,
+}
+
+impl MaterialNumbers {
+    fn number(&mut self, class: SceneClass, material: u32) -> u32 {
+        *self.numbers.entry((class, material)).or_insert_with(|| {
+            self.order.push((class, material));
+            self.order.len() as u32 - 1
+        })
+    }
+}
+
+fn push_attributes(
+    attributes: &mut Vec<Attributes>,
+    (number, class): (usize, SceneClass),
+    mesh: &TriMesh,
+    materials: &[Arc<Material>],
+    numbers: &mut MaterialNumbers,
+) {
     let start = attributes.len();
     // Ground layers are seen from above alone; walls of ruins and open roofs from both sides.
-    let two_sided = if object.class == SceneClass::Building { i16::MAX } else { 0 };
+    let two_sided = if class == SceneClass::Building { i16::MAX } else { 0 };
     attributes.extend(mesh.normals.iter().enumerate().map(|(i, n)| {
         let [x, y, z] = n.to_array().map(|c| (c.clamp(-1.0, 1.0) * f32::from(i16::MAX)).round() as i16);
         // The scene's v runs up, as CGA's; that of images runs down.
@@ -175,8 +222,9 @@ fn push_attributes(attributes: &mut Vec<Attributes>, number: usize, object: &Sce
     }));
     for group in &mesh.groups {
         let triangles = mesh.triangles.iter().skip(group.first as usize).take(group.count as usize);
+        let material = numbers.number(class, group.material);
         for &vertex in triangles.clone().flatten() {
-            attributes[start + vertex as usize].material = group.material;
+            attributes[start + vertex as usize].material = material;
         }
         let transform = materials[group.material as usize].colormap_transform;
         if transform != MapTransform::IDENTITY {
@@ -194,9 +242,4 @@ fn bounds(object: &SceneObject) -> Option<(DVec3, DVec3)> {
     let mut positions = object.mesh.positions.iter().copied();
     let first = positions.next()?;
     Some(positions.fold((first, first), |(low, high), p| (low.min(p), high.max(p))))
-}
-
-fn linear_color(srgb: [f64; 3]) -> [f32; 4] {
-    let [r, g, b] = srgb.map(|c| linear_from_srgb(c.clamp(0.0, 1.0)) as f32);
-    [r, g, b, 1.0]
 }

@@ -27,8 +27,24 @@ pub struct Camera {
     /// Pixels.
     pub width: u32,
     pub height: u32,
-    /// Distance of the near plane, metres; the far plane is at infinity (reverse-Z).
+    /// Distance of the near plane, metres. The far plane lies behind the scene (reverse-Z).
     pub near: f64,
+}
+
+/// Metres: steps of [`Camera::to_origin`], so that it is added to positions without rounding.
+const ORIGIN_STEP: f64 = 1.0 / 1024.0;
+
+impl Camera {
+    /// From the camera to where its axis enters the scene, the near plane.
+    pub fn to_origin(&self) -> DVec3 {
+        (self.forward * (self.near / ORIGIN_STEP)).round() * ORIGIN_STEP
+    }
+
+    /// The point about which positions are kept in 32 bits: differences within the scene then have their digits, however
+    /// far away the camera is.
+    pub fn origin(&self) -> DVec3 {
+        self.position + self.to_origin()
+    }
 }
 
 /// The sun as the renderer needs it.

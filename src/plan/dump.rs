@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use serde_json::{Value, json};
 
-use super::pass::{Pass, PassKind, PipelineKey, RenderPlan, ShadowFilter, Surface, ViewPlan};
+use super::pass::{Pass, PassKind, PipelineKey, RenderPlan, Surface, ViewPlan};
 use super::resource::ResourceId;
 
 impl PipelineKey {
@@ -14,17 +14,18 @@ impl PipelineKey {
             PipelineKey::ShadowMap { cutout } => format!("shadow_map{}", cutout_suffix(cutout)),
             PipelineKey::Ids { cutout } => format!("ids{}", cutout_suffix(cutout)),
             PipelineKey::Depth { cutout } => format!("depth{}", cutout_suffix(cutout)),
-            PipelineKey::Resolve { supersample } => format!("resolve.{supersample}x{supersample}"),
-            PipelineKey::Shade { surface, shadow } => {
+            PipelineKey::ShadowBounds { first: true } => "shadow_bounds".to_owned(),
+            PipelineKey::ShadowBounds { first: false } => "shadow_bounds.halve".to_owned(),
+            PipelineKey::Resolve { supersample, linear } => {
+                format!("resolve.{supersample}x{supersample}{}", if linear { ".linear" } else { "" })
+            }
+            PipelineKey::Shade { surface, terms } => {
                 let surface = match surface {
                     Surface::Plain => "plain",
                     Surface::Textured => "textured",
                     Surface::Cutout => "cutout",
                 };
-                match shadow {
-                    ShadowFilter::Unshadowed => format!("shade.{surface}"),
-                    ShadowFilter::Box { gathers } => format!("shade.{surface}.shadow{}", 2 * gathers - 1),
-                }
+                [&["shade", surface][..], &terms.words()].concat().join(".")
             }
         }
     }
@@ -50,7 +51,7 @@ pub fn text(plan: &RenderPlan) -> String {
         let _ = writeln!(out, "view {} ({} x {})", view.name, view.camera.width, view.camera.height);
         for stage in &view.stages {
             for pass in &stage.passes {
-                let _ = writeln!(out, "  {:<11} {}", pass.kind.stem(), pass_line(view, pass));
+                let _ = writeln!(out, "  {:<13} {}", pass.kind.stem(), pass_line(view, pass));
             }
             for product in &stage.products {
                 let source = name(view, product.source);
@@ -74,8 +75,21 @@ fn pass_line(view: &ViewPlan, pass: &Pass) -> String {
         let _ = write!(line, "reads {}; ", names(view, &pass.reads));
     }
     let _ = write!(line, "writes {}", names(view, &pass.writes));
-    if let PassKind::ShadowMap { light, .. } = &pass.kind {
-        let _ = write!(line, "; texel {:.3} x {:.3} m", light.texel.x, light.texel.y);
+    match &pass.kind {
+        PassKind::ShadowMap { light, .. } => {
+            let _ = write!(line, "; texel {:.3} x {:.3} m", light.texel.x, light.texel.y);
+        }
+        PassKind::SkyMaps { frames, .. } => {
+            let _ = write!(line, "; from {} directions", frames.len());
+        }
+        PassKind::Field { frame, .. } => {
+            let side = (frame.high - frame.low) / f64::from(frame.size);
+            let _ = write!(line, "; texel {:.3} x {:.3} m", side.x, side.y);
+        }
+        PassKind::Shade { light, .. } if !light.terms().words().is_empty() => {
+            let _ = write!(line, "; {}", light.terms().words().join(", "));
+        }
+        _ => {}
     }
     line
 }
@@ -103,7 +117,7 @@ fn view_json(view: &ViewPlan) -> Value {
     let resources = view.resources.iter().map(|r| {
         let t = r.texture;
         json!({ "name": r.name, "format": t.format.name(), "width": t.width, "height": t.height,
-                "samples_per_side": t.supersample })
+                "layers": t.layers, "samples_per_side": t.supersample })
     });
     let products = view.stages.iter().flat_map(|s| &s.products).map(
         |p| json!({ "pass": p.pass, "output": format!("{:?}", p.output).to_lowercase(), "source": name(view, p.source) }),
@@ -132,6 +146,9 @@ fn pass_json(view: &ViewPlan, pass: &Pass) -> Value {
         value["state"] = format!("{:?}", draw.state).to_lowercase().into();
         value["objects"] = draw.objects.iter().filter(|&&o| o).count().into();
         value["triangles"] = draw.triangles.into();
+    }
+    if let PassKind::Shade { light, .. } = &pass.kind {
+        value["terms"] = light.terms().words().into();
     }
     value
 }

@@ -69,7 +69,9 @@ pub struct Haze {
 
 /// One layer of clouds without thickness. A path that crosses it at plan position p under the angle with cosine c to the
 /// vertical keeps `exp(-optical_depth(p) / c)` of its light. That holds for the sun's light on its way down (their
-/// shadows) and for what a camera above the layer sees of the ground; the rest is the radiance `color`.
+/// shadows) and for what a camera above the layer sees of the ground below it; the rest is the radiance `color`. The
+/// layer lies above the haze: what it covers is the radiance after the whole path's haze. Where nothing is drawn there
+/// are no clouds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Clouds {
     pub key: u64,
@@ -99,12 +101,41 @@ pub struct GroundState {
     pub around: Arc<[(DVec2, f64)]>,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum GroundKind {
     /// Grey, dull, with soft borders.
     Ash,
     /// Dark wet ground with sharp borders that reflects the sky.
     Puddles,
+}
+
+/// Of ash, in every band (0.05 to 0.15 are measured for that of wood and of volcanoes).
+pub const ASH_ALBEDO: f64 = 0.1;
+/// What water leaves of the albedo of what it lies on.
+pub const WET_ALBEDO: f64 = 0.35;
+/// Share that water mirrors of what meets it at a right angle (refractive index 1.33).
+pub const WATER_MIRRORS: f64 = 0.02;
+
+impl GroundKind {
+    /// Albedo of wholly covered ground, from that of the bare one.
+    pub fn albedo(self, bare: f64) -> f64 {
+        match self {
+            GroundKind::Ash => ASH_ALBEDO,
+            GroundKind::Puddles => bare * WET_ALBEDO,
+        }
+    }
+
+    /// Share of the zenith's radiance ([`Ambient`]; never occluded) that wholly covered ground adds to what it scatters,
+    /// for a look under the angle of this cosine to the normal (Schlick 1994).
+    pub fn mirrored(self, cosine: f64) -> f64 {
+        match self {
+            GroundKind::Ash => 0.0,
+            GroundKind::Puddles => {
+                let rest = 1.0 - cosine.clamp(0.0, 1.0);
+                WATER_MIRRORS + (1.0 - WATER_MIRRORS) * rest * rest * rest * rest * rest
+            }
+        }
+    }
 }
 
 /// From linear radiance to the numbers of an image file.
@@ -142,10 +173,40 @@ pub enum Bands {
     FalseColor(NirLight),
 }
 
+/// Weights of linear red, green and blue in luminance (Rec. 709).
+pub const LUMINANCE: [f64; 3] = [0.2126, 0.7152, 0.0722];
+/// No surface has a greater near-infrared albedo.
+pub const MOST_INFRARED: f64 = 0.95;
+
+impl Bands {
+    /// The three channels of an image from radiance in red, green, blue and near infrared.
+    pub fn of(self, [r, g, b, n]: [f64; 4]) -> [f64; 3] {
+        match self {
+            Bands::Rgb => [r, g, b],
+            Bands::Nir(_) => [n; 3],
+            Bands::Panchromatic(_) => [(r + g + b + n) / 4.0; 3],
+            Bands::FalseColor(_) => [n, r, g],
+        }
+    }
+
+    pub fn near_infrared(self) -> Option<NirLight> {
+        match self {
+            Bands::Rgb => None,
+            Bands::Nir(light) | Bands::Panchromatic(light) | Bands::FalseColor(light) => Some(light),
+        }
+    }
+}
+
+/// What is given in red, green and blue alone (the colour of clouds, the background) is as red in the near infrared.
+pub fn with_red_as_infrared([r, g, b]: [f64; 3]) -> [f64; 4] {
+    [r, g, b, r]
+}
+
 /// The light of the near-infrared band, in the units of the other three.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NirLight {
     pub sun: f64,
+    /// Of the ambient light from above and from below; without any where [`Ambient::Off`].
     pub zenith: f64,
     pub ground: f64,
     /// Per metre; the haze of this band.

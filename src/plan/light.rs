@@ -46,14 +46,16 @@ pub fn across(direction: DVec3) -> (DVec3, DVec3) {
     (u, direction.cross(u))
 }
 
-/// Fits a map of `size` texels per side; `None` when the camera sees nothing of the scene's box `bounds`.
-pub fn fit(camera: &Camera, bounds: (DVec3, DVec3), direction: DVec3, size: u32) -> Option<LightFrame> {
+/// Fits a map of `size` texels per side to all within `margin` metres of the receivers across the light; `None` when
+/// the camera sees nothing of the scene's box `bounds`.
+pub fn fit(camera: &Camera, bounds: (DVec3, DVec3), direction: DVec3, size: u32, margin: f64) -> Option<LightFrame> {
     let receivers = visible_corners(camera, bounds);
     let (anchor, top) = bounds;
     let (u, v) = across(direction);
     let flat = |p: &DVec3| DVec2::new(p.dot(u), p.dot(v));
     let first = flat(receivers.first()?);
     let (low_uv, high_uv) = receivers.iter().map(flat).fold((first, first), |(l, h), q| (l.min(q), h.max(q)));
+    let (low_uv, high_uv) = (low_uv - margin, high_uv + margin);
     // One texel more than the extent needs, since the corner is moved to a whole texel.
     let inner = f64::from(size) - 2.0 * BORDER - 1.0;
     let texel = ((high_uv - low_uv) / inner).max(DVec2::splat(1e-4));
@@ -93,7 +95,7 @@ pub fn view_planes(camera: &Camera) -> [(DVec3, f64); 5] {
 }
 
 /// Points, from the box's least corner, whose hull is the box within the view volume.
-fn visible_corners(camera: &Camera, bounds: (DVec3, DVec3)) -> Vec<DVec3> {
+pub fn visible_corners(camera: &Camera, bounds: (DVec3, DVec3)) -> Vec<DVec3> {
     const FACES: [[usize; 4]; 6] = [[0, 1, 3, 2], [4, 5, 7, 6], [0, 1, 5, 4], [2, 3, 7, 6], [0, 2, 6, 4], [1, 3, 7, 5]];
     let corners = box_corners(bounds.0, bounds.1);
     let planes = view_planes(camera);
@@ -163,7 +165,7 @@ mod tests {
     fn receivers_are_inside_the_map_and_fill_it() {
         for (x, y, z) in [(0.0, 1.0, 0.0), (0.9, 0.1, 0.2), (0.3, 0.5, -0.8), (-0.5, 0.02, 0.5)] {
             let direction = DVec3::new(x, y, z).normalize();
-            let frame = fit(&nadir(100.0, 1.0), BOX, direction, 1024).expect("the camera sees the ground");
+            let frame = fit(&nadir(100.0, 1.0), BOX, direction, 1024, 0.0).expect("the camera sees the ground");
             assert!((frame.u.cross(frame.v) - direction).length() < 1e-12);
             let mut reached = DVec2::ZERO;
             // Corners of the view volume on the ground and at the top of the box.
@@ -185,7 +187,7 @@ mod tests {
         let mut camera = nadir(100.0, 1.0);
         camera.forward = DVec3::Y;
         camera.up = DVec3::Z;
-        assert_eq!(fit(&camera, BOX, DVec3::Y, 64), None);
+        assert_eq!(fit(&camera, BOX, DVec3::Y, 64, 0.0), None);
     }
 
     #[test]
@@ -193,9 +195,9 @@ mod tests {
         let shift = DVec3::new(524_288.0, 1024.0, -4_194_304.0);
         let direction = DVec3::new(0.5, 0.5, 0.25).normalize();
         let mut camera = nadir(128.0, 0.5);
-        let here = fit(&camera, BOX, direction, 512).expect("seen");
+        let here = fit(&camera, BOX, direction, 512, 0.0).expect("seen");
         camera.position += shift;
-        let there = fit(&camera, (BOX.0 + shift, BOX.1 + shift), direction, 512).expect("seen");
+        let there = fit(&camera, (BOX.0 + shift, BOX.1 + shift), direction, 512, 0.0).expect("seen");
         assert_eq!(LightFrame { anchor: here.anchor + shift, ..here }, there);
     }
 }

@@ -5,9 +5,11 @@
 
 use std::sync::Arc;
 
-use super::demand::{Ambient, Camera, Output, State, Sun};
+use super::demand::{Camera, Output, State};
+use super::effects::Sensor;
 use super::light::LightFrame;
 use super::resource::{Resource, ResourceId};
+use super::shading::{Field, FieldFrame, Illumination, Terms};
 
 /// How a surface must be drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -20,24 +22,30 @@ pub enum Surface {
     Cutout,
 }
 
-/// How shadows are looked up.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum ShadowFilter {
-    Unshadowed,
-    /// Box filter of `2 × gathers - 1` texels per side, bilinear at its border; 1 is a hard shadow.
-    Box {
-        gathers: u32,
-    },
-}
-
 /// One pipeline to compile.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum PipelineKey {
-    ShadowMap { cutout: bool },
-    Shade { surface: Surface, shadow: ShadowFilter },
-    Resolve { supersample: u32 },
-    Ids { cutout: bool },
-    Depth { cutout: bool },
+    ShadowMap {
+        cutout: bool,
+    },
+    /// The first reads the shadow map, the others halve.
+    ShadowBounds {
+        first: bool,
+    },
+    Shade {
+        surface: Surface,
+        terms: Terms,
+    },
+    Resolve {
+        supersample: u32,
+        linear: bool,
+    },
+    Ids {
+        cutout: bool,
+    },
+    Depth {
+        cutout: bool,
+    },
 }
 
 /// Objects that a pass draws: one flag per object, the selected ones that have a visible surface.
@@ -52,10 +60,16 @@ pub struct DrawSet {
 pub enum PassKind {
     /// Depth from the sun.
     ShadowMap { draw: DrawSet, light: LightFrame },
-    /// Linear radiance; `light` is that of the shadow map it reads.
-    Shade { draw: DrawSet, sun: Option<Sun>, ambient: Ambient, light: Option<LightFrame> },
-    /// Mean of the samples of a pixel in linear light, then sRGB.
-    Resolve { supersample: u32 },
+    /// Highest and lowest point of every block of a shadow map.
+    ShadowBounds { light: LightFrame },
+    /// Depth from all sides of the sky, one layer each.
+    SkyMaps { draw: DrawSet, frames: Arc<[LightFrame]> },
+    /// A function of the plan, evaluated on the CPU.
+    Field { field: Box<Field>, frame: FieldFrame },
+    /// Linear radiance.
+    Shade { draw: DrawSet, light: Box<Illumination> },
+    /// Mean of the samples of a pixel in linear light, then sRGB unless `linear`.
+    Resolve { supersample: u32, linear: bool },
     /// Object numbers at pixel centres, one sample, never blended.
     Ids { draw: DrawSet },
     /// Depth at pixel centres alone.
@@ -67,6 +81,9 @@ impl PassKind {
     pub fn stem(&self) -> &'static str {
         match self {
             PassKind::ShadowMap { .. } => "shadow_map",
+            PassKind::ShadowBounds { .. } => "shadow_bounds",
+            PassKind::SkyMaps { .. } => "sky_maps",
+            PassKind::Field { field, .. } => field.stem(),
             PassKind::Shade { .. } => "shade",
             PassKind::Resolve { .. } => "resolve",
             PassKind::Ids { .. } => "ids",
@@ -77,10 +94,11 @@ impl PassKind {
     pub fn draw(&self) -> Option<&DrawSet> {
         match self {
             PassKind::ShadowMap { draw, .. }
+            | PassKind::SkyMaps { draw, .. }
             | PassKind::Shade { draw, .. }
             | PassKind::Ids { draw }
             | PassKind::Depth { draw } => Some(draw),
-            PassKind::Resolve { .. } => None,
+            PassKind::ShadowBounds { .. } | PassKind::Field { .. } | PassKind::Resolve { .. } => None,
         }
     }
 }
@@ -99,6 +117,8 @@ pub struct Pass {
 pub enum Encoding {
     /// RGB bytes as they are.
     Color,
+    /// Linear radiance that a sensor takes.
+    Sensor(Sensor),
     /// 8-bit label of each object.
     Label(Arc<[u8]>),
     /// 32-bit label of each object.
@@ -139,8 +159,10 @@ pub struct Skipped {
 pub struct ViewPlan {
     pub name: String,
     pub camera: Camera,
-    /// Farthest distance along the viewing direction, metres; orthographic depth runs from it to `camera.near`.
+    /// Distance of the far plane along the viewing direction, metres: depth runs from it (0) to `camera.near` (1).
     pub far: f64,
+    /// What of the demand has a number that is not finite: renderers refuse such a plan.
+    pub not_finite: Option<&'static str>,
     pub resources: Vec<Resource>,
     pub stages: Vec<Stage>,
     pub skipped: Vec<Skipped>,

@@ -16,6 +16,12 @@ pub enum Format {
     Srgb8,
     /// Object number + 1, 0 where nothing is; 32-bit unsigned.
     Id32,
+    /// Greatest and least height of a block of a shadow map, metres, 32-bit float; with all its halvings.
+    Bounds32,
+    /// A number, 16-bit float.
+    Field16,
+    /// Linear radiance, 32-bit float RGBA.
+    Linear32,
 }
 
 impl Format {
@@ -25,6 +31,9 @@ impl Format {
             Format::Radiance16 => "radiance16",
             Format::Srgb8 => "srgb8",
             Format::Id32 => "id32",
+            Format::Bounds32 => "bounds32",
+            Format::Field16 => "field16",
+            Format::Linear32 => "linear32",
         }
     }
 }
@@ -38,6 +47,9 @@ pub struct TextureKey {
     pub height: u32,
     /// Samples per pixel side.
     pub supersample: u32,
+    pub layers: u32,
+    /// Tells apart textures that are alive together.
+    pub number: u32,
     /// The renderer may allocate a tile of it and go over the image; a shadow map is there as a whole.
     pub tiled: bool,
 }

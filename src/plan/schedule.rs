@@ -8,19 +8,18 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::demand::{Look, Output, OutputDemand, Shadows, Sun, ViewDemand};
-use super::light::{self, LightFrame};
+use super::demand::{Look, Output, OutputDemand, Sun, ViewDemand};
+use super::finite::not_finite;
+use super::light;
 use super::pass::{
-    DrawSet, Encoding, Pass, PassKind, PipelineKey, Product, RenderPlan, ShadowFilter, Skipped, Stage, Surface,
-    ViewPlan,
+    DrawSet, Encoding, Pass, PassKind, PipelineKey, Product, RenderPlan, Skipped, Stage, Surface, ViewPlan,
 };
 use super::resource::{Format, Resource, ResourceId, TextureKey};
+use super::shading::Illumination;
 use super::summary::ObjectSummary;
+use maps::Maps;
 
-/// Height, metres, of the wall whose penumbra the soft filter is as wide as: two storeys and a half.
-const PENUMBRA_CASTER: f64 = 8.0;
-/// Least width of a soft shadow's filter, texels.
-const SOFTEST_BOX: u32 = 3;
+mod maps;
 
 /// Plans every view. Demands must hold one selection flag (and mark) per object.
 pub fn schedule(views: &[ViewDemand], objects: &[ObjectSummary]) -> RenderPlan {
@@ -51,6 +50,7 @@ impl<'a> ViewScheduler<'a> {
             name: view.name.clone(),
             camera: view.camera,
             far: far_distance(view, bounds),
+            not_finite: not_finite(view),
             resources: Vec::new(),
             stages: Vec::new(),
             skipped: Vec::new(),
@@ -64,7 +64,7 @@ impl<'a> ViewScheduler<'a> {
         self.plan
     }
 
-    /// Shadow map, shading and resolve for each look.
+    /// Maps, shading and resolve for each look.
     fn colors(&mut self) {
         let looks =
             self.group(|o| o.output == Output::Color, |s, o| Shading { draw: s.draw_set(o), look: o.look.clone() });
@@ -72,75 +72,33 @@ impl<'a> ViewScheduler<'a> {
             self.skip("shading", "no output asks for colour");
             self.skip("shadow map", "no output asks for colour");
         }
-        let mut drawn: Option<(DrawSet, ResourceId)> = None;
+        let mut maps = Maps::default();
         for (look, outputs) in looks {
-            let shadow = self.shadow_map(&look, &mut drawn);
-            self.shade(look, shadow, &outputs);
+            let light = self.illumination(&look, &mut maps);
+            self.shade(look, light, &outputs);
         }
     }
 
-    /// The shadow map that `look` reads: the last one again if it shows the same objects.
-    fn shadow_map(
-        &mut self,
-        look: &Shading,
-        drawn: &mut Option<(DrawSet, ResourceId)>,
-    ) -> Option<(LightFrame, ResourceId)> {
-        if look.look.shadows == Shadows::Off {
-            self.skip("shadow map", "shadows are off");
-            return None;
-        }
-        let Some(sun) = self.sun() else {
-            self.skip("shadow map", "no sun above the horizon");
-            return None;
-        };
-        let size = self.view.quality.shadow_map;
-        let fitted = self.bounds.and_then(|b| light::fit(&self.view.camera, b, sun.direction, size));
-        let (Some(light), true) = (fitted, look.draw.triangles > 0) else {
-            self.skip("shadow map", "nothing in view");
-            return None;
-        };
-        if let Some((draw, id)) = drawn.as_ref()
-            && draw.objects == look.draw.objects
-        {
-            return Some((light, *id));
-        }
-        let id = self.resource("shadow_map", Format::Depth32, (size, size), 1, false);
-        let pipelines = self.cutouts(&look.draw, |cutout| PipelineKey::ShadowMap { cutout });
-        let kind = PassKind::ShadowMap { draw: look.draw.clone(), light };
-        let pass = Pass { kind, reads: vec![], writes: vec![id], pipelines };
-        self.plan.stages.push(Stage { tiled: false, passes: vec![pass], products: vec![] });
-        *drawn = Some((look.draw.clone(), id));
-        Some((light, id))
-    }
-
-    fn shade(&mut self, look: Shading, shadow: Option<(LightFrame, ResourceId)>, outputs: &[usize]) {
-        let supersample = self.view.quality.supersample.max(1);
+    fn shade(&mut self, Shading { draw, look }: Shading, light: Illumination, outputs: &[usize]) {
+        let supersample = self.supersample();
         let radiance = self.resource("shade", Format::Radiance16, self.size(), supersample, true);
         let depth = self.resource("shade.depth", Format::Depth32, self.size(), supersample, true);
-        let color = self.resource("resolve", Format::Srgb8, self.size(), 1, true);
-        let filter = match (shadow, self.sun()) {
-            (Some((frame, _)), Some(sun)) => self.filter(look.look.shadows, &frame, &sun),
-            _ => ShadowFilter::Unshadowed,
-        };
-        let pipelines = self
-            .surfaces(&look.draw)
-            .into_iter()
-            .map(|surface| PipelineKey::Shade { surface, shadow: filter })
-            .collect();
-        let light = shadow.map(|(frame, _)| frame);
-        let shade = Pass {
-            kind: PassKind::Shade { draw: look.draw, sun: self.sun(), ambient: look.look.ambient, light },
-            reads: shadow.map(|(_, id)| id).into_iter().collect(),
-            writes: vec![radiance, depth],
-            pipelines,
-        };
+        let linear = look.sensor.is_some();
+        let format = if linear { Format::Linear32 } else { Format::Srgb8 };
+        let color = self.resource("resolve", format, self.size(), 1, true);
+        let terms = light.terms();
+        let pipelines = self.surfaces(&draw).into_iter().map(|surface| PipelineKey::Shade { surface, terms }).collect();
+        let reads = light.reads();
+        let kind = PassKind::Shade { draw, light: Box::new(light) };
+        let shade = Pass { kind, reads, writes: vec![radiance, depth], pipelines };
         let resolve = Pass {
-            kind: PassKind::Resolve { supersample },
+            kind: PassKind::Resolve { supersample, linear },
             reads: vec![radiance],
             writes: vec![color],
-            pipelines: vec![PipelineKey::Resolve { supersample }],
+            pipelines: vec![PipelineKey::Resolve { supersample, linear }],
         };
-        let products = outputs.iter().map(|&i| self.product(i, color, Encoding::Color)).collect();
+        let encoding = look.sensor.map_or(Encoding::Color, Encoding::Sensor);
+        let products = outputs.iter().map(|&i| self.product(i, color, encoding.clone())).collect();
         self.plan.stages.push(Stage { tiled: true, passes: vec![shade, resolve], products });
     }
 
@@ -242,27 +200,24 @@ impl<'a> ViewScheduler<'a> {
         Product { index, pass: demand.pass.clone(), output: demand.output, source, encoding }
     }
 
-    /// A new resource. Equal ones share a texture: a tiled one does not outlive its stage, and a shadow map is read
-    /// only until the next one is drawn.
+    /// A new resource. Equal ones share a texture: a tiled one does not outlive its stage, and a map is read only until
+    /// the next one of its kind is made.
     fn resource(&mut self, stem: &str, format: Format, size: (u32, u32), supersample: u32, tiled: bool) -> ResourceId {
-        let made = self.made.entry(format).or_insert(0);
+        let (width, height) = size;
+        self.texture(stem, TextureKey { format, width, height, supersample, layers: 1, number: 0, tiled })
+    }
+
+    fn texture(&mut self, stem: &str, texture: TextureKey) -> ResourceId {
+        let made = self.made.entry(texture.format).or_insert(0);
         let name = format!("{stem}#{made}");
         *made += 1;
-        let texture = TextureKey { format, width: size.0, height: size.1, supersample, tiled };
         self.plan.resources.push(Resource { name, texture });
         ResourceId(self.plan.resources.len() - 1)
     }
 
-    /// Box width in texels: the penumbra of a wall of [`PENUMBRA_CASTER`], at most what the quality allows.
-    fn filter(&self, shadows: Shadows, frame: &LightFrame, sun: &Sun) -> ShadowFilter {
-        if shadows == Shadows::Hard {
-            return ShadowFilter::Box { gathers: 1 };
-        }
-        let disc = 2.0 * libm::tan((sun.disc_deg / 2.0).to_radians());
-        let penumbra = disc * PENUMBRA_CASTER / sun.direction.y.max(0.01);
-        let allowed = self.view.quality.shadow_samples.clamp(SOFTEST_BOX, 15);
-        let texels = (penumbra / frame.texel.max_element()).ceil() as u32;
-        ShadowFilter::Box { gathers: texels.clamp(SOFTEST_BOX, allowed) / 2 + 1 }
+    /// Samples per pixel side.
+    fn supersample(&self) -> u32 {
+        self.view.quality.supersample.max(1)
     }
 
     /// No light comes from below the horizon.

@@ -8,6 +8,7 @@ pub mod ground;
 pub mod model;
 mod palette;
 pub mod parts;
+pub mod reflectance;
 pub mod texture;
 mod triangles;
 

@@ -17,6 +17,7 @@ const ORDER: &[&str] = &[
     "spec",
     "plan",
     "frame",
+    "sensor",
     "reference",
     "gpu",
     "cost",

@@ -1,9 +1,10 @@
 //! Depth: reverse depth at pixel centres, without object numbers.
 
-use super::{Drawing, begin};
+use super::Drawing;
 use crate::gpu::device::Gpu;
 use crate::gpu::pipelines::{GeometryPipeline, Layouts};
 use crate::gpu::pools::Target;
+use crate::gpu::timing::Recorder;
 use crate::plan::pass::{PipelineKey, Surface};
 
 pub fn pipeline(gpu: &Gpu, layouts: &Layouts, module: &wgpu::ShaderModule, cutout: bool) -> wgpu::RenderPipeline {
@@ -15,12 +16,11 @@ pub fn pipeline(gpu: &Gpu, layouts: &Layouts, module: &wgpu::ShaderModule, cutou
         fragment: cutout.then_some(("fs_depth_cutout", None)),
         attributes: cutout,
         groups: if cutout { &groups } else { &groups[..1] },
-        constants: &[],
     }
     .create(gpu)
 }
 
-pub fn encode(encoder: &mut wgpu::CommandEncoder, drawing: &Drawing, depth: &Target) {
-    let mut pass = begin(encoder, "depth", None, Some(depth));
+pub fn encode(recorder: &mut Recorder, drawing: &Drawing, depth: &Target) {
+    let mut pass = recorder.begin("depth", None, Some(&depth.view));
     drawing.record(&mut pass, None, |surface| PipelineKey::Depth { cutout: surface == Surface::Cutout });
 }

@@ -1,14 +1,16 @@
 //! Passes: one file each, with the pipelines it compiles and the commands it records.
 
 pub mod depth;
+pub mod field;
 pub mod ids;
 pub mod resolve;
 pub mod shade;
+pub mod shadow_bounds;
 pub mod shadow_map;
+pub mod sky_maps;
 
 use super::draws::DrawList;
 use super::pipelines::Pipelines;
-use super::pools::Target;
 use super::upload::GpuScene;
 use crate::plan::pass::{PipelineKey, Surface};
 
@@ -53,32 +55,4 @@ impl Drawing<'_> {
             pass.draw_indexed(run.indices.clone(), 0, 0..1);
         }
     }
-}
-
-/// Begins a pass that clears its targets.
-fn begin<'e>(
-    encoder: &'e mut wgpu::CommandEncoder,
-    label: &str,
-    color: Option<(&Target, wgpu::Color)>,
-    depth: Option<&Target>,
-) -> wgpu::RenderPass<'e> {
-    let color = color.map(|(target, value)| wgpu::RenderPassColorAttachment {
-        view: &target.view,
-        depth_slice: None,
-        resolve_target: None,
-        ops: wgpu::Operations { load: wgpu::LoadOp::Clear(value), store: wgpu::StoreOp::Store },
-    });
-    let depth_ops = wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Store };
-    encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-        label: Some(label),
-        color_attachments: if color.is_some() { std::slice::from_ref(&color) } else { &[] },
-        depth_stencil_attachment: depth.map(|target| wgpu::RenderPassDepthStencilAttachment {
-            view: &target.view,
-            depth_ops: Some(depth_ops),
-            stencil_ops: None,
-        }),
-        timestamp_writes: None,
-        occlusion_query_set: None,
-        multiview_mask: None,
-    })
 }

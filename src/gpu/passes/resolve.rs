@@ -1,14 +1,21 @@
-//! Resolve: k × k linear radiances → one sRGB pixel.
+//! Resolve: k × k linear radiances → one pixel, sRGB or linear.
 
-use super::begin;
 use crate::gpu::device::Gpu;
 use crate::gpu::pipelines::{Layouts, Pipelines, pipeline_layout};
 use crate::gpu::pools::{Target, texture_format};
+use crate::gpu::timing::Recorder;
 use crate::plan::pass::PipelineKey;
 use crate::plan::resource::Format;
 
-pub fn pipeline(gpu: &Gpu, layouts: &Layouts, module: &wgpu::ShaderModule, supersample: u32) -> wgpu::RenderPipeline {
-    let label = PipelineKey::Resolve { supersample }.name();
+pub fn pipeline(
+    gpu: &Gpu,
+    layouts: &Layouts,
+    module: &wgpu::ShaderModule,
+    supersample: u32,
+    linear: bool,
+) -> wgpu::RenderPipeline {
+    let label = PipelineKey::Resolve { supersample, linear }.name();
+    let format = if linear { Format::Linear32 } else { Format::Srgb8 };
     let constants = [("SAMPLES", f64::from(supersample))];
     let options = wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
     gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
@@ -27,7 +34,7 @@ pub fn pipeline(gpu: &Gpu, layouts: &Layouts, module: &wgpu::ShaderModule, super
             module,
             entry_point: Some(if supersample.is_multiple_of(2) { "fs_resolve_even" } else { "fs_resolve_odd" }),
             compilation_options: options,
-            targets: &[Some(texture_format(Format::Srgb8).into())],
+            targets: &[Some(texture_format(format).into())],
         }),
         multiview_mask: None,
         cache: None,
@@ -35,10 +42,10 @@ pub fn pipeline(gpu: &Gpu, layouts: &Layouts, module: &wgpu::ShaderModule, super
 }
 
 pub fn encode(
-    encoder: &mut wgpu::CommandEncoder,
+    recorder: &mut Recorder,
     gpu: &Gpu,
     pipelines: &Pipelines,
-    supersample: u32,
+    key: PipelineKey,
     (radiance, color): (&Target, &Target),
     area: (u32, u32),
 ) {
@@ -49,9 +56,9 @@ pub fn encode(
     ];
     let descriptor = wgpu::BindGroupDescriptor { label: Some("resolve"), layout: &layouts.resolve, entries: &entries };
     let group = gpu.device.create_bind_group(&descriptor);
-    let mut pass = begin(encoder, "resolve", Some((color, wgpu::Color::BLACK)), None);
+    let mut pass = recorder.begin("resolve", Some((&color.view, wgpu::Color::BLACK)), None);
     pass.set_scissor_rect(0, 0, area.0, area.1);
-    pass.set_pipeline(pipelines.get(PipelineKey::Resolve { supersample }));
+    pass.set_pipeline(pipelines.get(key));
     pass.set_bind_group(0, &group, &[]);
     pass.draw(0..3, 0..1);
 }

@@ -1,7 +1,7 @@
 //! What a plan holds, and above all what it does not hold.
 
 use super::*;
-use crate::plan::demand::{Ambient, Camera, Look, Projection, Quality, Selection, State};
+use crate::plan::demand::{Ambient, Camera, Look, Projection, Quality, Selection, Shadows, State, Sun};
 use crate::plan::dump;
 use crate::plan::pass::Counts;
 
@@ -72,9 +72,9 @@ fn depth_alone_has_no_ids() {
 fn before_and_after_have_a_shadow_map_each_in_one_texture() {
     let outputs = vec![output(Output::Color, State::Before), output(Output::Color, State::After)];
     let plan = schedule(&[view(outputs)], &objects());
-    assert_eq!(stems(&plan), ["shadow_map", "shade", "resolve", "shadow_map", "shade", "resolve"]);
-    // shadow map, radiance, its depth, colour; shadow_map, plain, textured, resolve.
-    assert_eq!(plan.counts(), Counts { passes: 6, textures: 4, pipelines: 4 });
+    assert_eq!(stems(&plan), ["shadow_map", "shadow_bounds", "shade", "resolve"].repeat(2));
+    // shadow map, its bounds, radiance, its depth, colour; shadow_map, two for bounds, plain, textured, resolve.
+    assert_eq!(plan.counts(), Counts { passes: 8, textures: 5, pipelines: 6 });
     let lights: Vec<_> = plan.views[0]
         .passes()
         .filter_map(|p| if let PassKind::ShadowMap { light, .. } = &p.kind { Some(*light) } else { None })
@@ -88,7 +88,7 @@ fn equal_colours_are_shaded_once_and_other_light_shares_the_map() {
     dim.look.ambient = Ambient::Off;
     let twice = output(Output::Color, State::After);
     let plan = schedule(&[view(vec![twice.clone(), twice, dim])], &objects());
-    assert_eq!(stems(&plan), ["shadow_map", "shade", "resolve", "shade", "resolve"]);
+    assert_eq!(stems(&plan), ["shadow_map", "shadow_bounds", "shade", "resolve", "shade", "resolve"]);
 }
 
 #[test]
@@ -132,9 +132,9 @@ fn dumps_name_every_pass() {
     let outputs = [Output::Color, Output::Mask].map(|o| output(o, State::After)).to_vec();
     let plan = schedule(&[view(outputs)], &objects());
     let (text, dot, json) = (dump::text(&plan), dump::dot(&plan), dump::json(&plan));
-    assert!(text.contains("1 views, 4 passes, 6 render targets"), "{text}");
-    for stem in ["shadow_map", "shade", "resolve", "ids"] {
+    assert!(text.contains("1 views, 5 passes, 7 render targets"), "{text}");
+    for stem in ["shadow_map", "shadow_bounds", "shade", "resolve", "ids"] {
         assert!(text.contains(stem) && dot.contains(stem), "{stem}");
     }
-    assert_eq!(json["views"][0]["passes"].as_array().map(Vec::len), Some(4));
+    assert_eq!(json["views"][0]["passes"].as_array().map(Vec::len), Some(5));
 }
