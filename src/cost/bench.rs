@@ -82,6 +82,8 @@ pub struct Times {
     pub least: f64,
     pub most: f64,
     pub repeats: usize,
+    /// Milliseconds of each kind of pass, in one more run, by the device's clock if it has one.
+    pub passes: Vec<(String, f64)>,
 }
 
 /// A view and the truth of its windows.
@@ -204,7 +206,12 @@ impl<'a> Bench<'a> {
         times.sort_by(f64::total_cmp);
         let middle = times.len() / 2;
         let median = if times.len() % 2 == 1 { times[middle] } else { (times[middle - 1] + times[middle]) / 2.0 };
-        Ok(Times { median, least: times[0], most: times[times.len() - 1], repeats: times.len() })
+        self.renderer.set_timed(true);
+        let timed = self.renderer.render(&plan.views[0]);
+        let passes = self.renderer.timings().iter().map(|(pass, seconds)| (pass.clone(), seconds * 1e3)).collect();
+        self.renderer.set_timed(false);
+        timed?;
+        Ok(Times { median, least: times[0], most: times[times.len() - 1], repeats: times.len(), passes })
     }
 
     fn set(&mut self, setting: &Setting) {

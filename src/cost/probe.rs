@@ -9,6 +9,7 @@ use super::window::{camera_of, crop};
 use crate::frame::{Frame, Pixels};
 use crate::gpu::Tile;
 use crate::plan::demand::{Ambient, Look, Output, OutputDemand, Shadows, ViewDemand};
+use crate::plan::effects::{Bands, BitDepth, Sensor};
 use crate::reference::{Options, ReferenceError, Rendered, Tracer};
 
 /// A view with the images that errors are measured in.
@@ -18,6 +19,17 @@ pub struct Probe {
     /// Whether there are images of the sun's light.
     pub shadows: bool,
 }
+
+/// Takes light as it is, in steps of 1/65,535 of white.
+const PLAIN_SENSOR: Sensor = Sensor {
+    key: 0,
+    psf: 0.0,
+    exposure: 1.0,
+    read_noise: 0.0,
+    full_well: 0.0,
+    depth: BitDepth::Sixteen,
+    bands: Bands::Rgb,
+};
 
 const IMAGE: &str = "cost image";
 const PLAIN: &str = "cost without shadows";
@@ -42,9 +54,9 @@ impl Probe {
             marked: None,
             look,
         };
-        let color = |pass: &str, look: Look| output(pass, Output::Color, look);
+        let color = |pass: &str, look: Look| output(pass, Output::Color, Look { sensor: Some(PLAIN_SENSOR), ..look });
         let mut outputs = vec![
-            color(IMAGE, Look { sensor: None, ..look.clone() }),
+            color(IMAGE, look.clone()),
             color(PLAIN, Look::plain(Shadows::Off, open_sky)),
             output(LABELS, Output::Instance, Look::none()),
         ];
@@ -127,16 +139,11 @@ pub fn drawn(probe: &Probe, frame: &Frame, window: Tile) -> Images {
 /// The light of the pixels of a window.
 fn linear(pixels: &Pixels, width: u32, window: Tile) -> Vec<Rgb> {
     match pixels {
-        Pixels::Rgb8(bytes) => {
-            let table: Vec<f32> = (0..=255u8).map(|byte| of_srgb(f64::from(byte) / 255.0) as f32).collect();
-            let pixels: Vec<[u8; 3]> = bytes.as_chunks().0.to_vec();
-            crop(&pixels, width, window).into_iter().map(|p| p.map(|byte| table[usize::from(byte)])).collect()
+        Pixels::Rgb16(words) => {
+            let pixels: Vec<[u16; 3]> = words.as_chunks().0.to_vec();
+            let light = |word: u16| f32::from(word) / f32::from(u16::MAX);
+            crop(&pixels, width, window).into_iter().map(|p| p.map(light)).collect()
         }
-        _ => unreachable!("colour without a sensor is of 8 bits"),
+        _ => unreachable!("the probe's sensor has 16 bits"),
     }
-}
-
-/// Linear light of an sRGB-encoded value (IEC 61966-2-1).
-fn of_srgb(encoded: f64) -> f64 {
-    if encoded <= 0.04045 { encoded / 12.92 } else { libm::pow((encoded + 0.055) / 1.055, 2.4) }
 }

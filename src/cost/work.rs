@@ -2,6 +2,7 @@
 //! gets the same settings on every machine.
 
 use crate::plan::demand::{Ambient, Look, Output, Quality, Shadows, ViewDemand};
+use crate::plan::sky;
 
 /// Weights in units of one shaded sample without shadows, from times on a software adapter (two cores, llvmpipe).
 const TEXEL: f64 = 0.1;
@@ -9,8 +10,6 @@ const TAP: f64 = 0.12;
 const SKY_TAP: f64 = 0.12;
 const FIELD_TEXEL: f64 = 4.0;
 const TRIANGLE: f64 = 10.0;
-/// Texels per side of the map of one direction of the sky, at most.
-const SKY_MAP: f64 = 1024.0;
 
 /// What the images of a view take with this quality, if its scene has so many triangles.
 pub fn work(view: &ViewDemand, quality: &Quality, triangles: u64) -> f64 {
@@ -33,9 +32,9 @@ fn one_look(view: &ViewDemand, look: &Look, quality: &Quality, triangles: f64) -
         maps += TEXEL * square(quality.shadow_map) + TRIANGLE * triangles;
     }
     if matches!(look.ambient, Ambient::Sky { occluded: true, .. }) {
-        let directions = f64::from(quality.sky_samples);
-        sample += SKY_TAP * directions;
-        maps += directions * (TEXEL * SKY_MAP * SKY_MAP + TRIANGLE * triangles);
+        let count = quality.sky_samples;
+        sample += SKY_TAP * f64::from(count / sky::subsets(count, quality.supersample));
+        maps += f64::from(count) * (TEXEL * square(sky::map_size(quality.shadow_map, count)) + TRIANGLE * triangles);
     }
     if look.clouds.is_some() || look.ground.is_some() {
         maps += FIELD_TEXEL * square(quality.field_map);

@@ -168,6 +168,9 @@ pub struct AcquisitionRecord {
     /// Degrees above the horizon and clockwise from north; absent without a sun.
     pub sun_elevation: Option<f64>,
     pub sun_azimuth: Option<f64>,
+    /// Image name → what lit and took it besides sun and ambient light, where anything did.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub effects: BTreeMap<String, serde_json::Value>,
 }
 
 impl Manifest {

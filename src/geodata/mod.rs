@@ -4,6 +4,7 @@ pub mod elevation;
 pub mod feature;
 pub mod features;
 mod geojson;
+pub mod greenery;
 pub mod ledger;
 pub mod map;
 pub mod osm;

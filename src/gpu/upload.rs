@@ -178,7 +178,7 @@ pub fn check(scene: &Scene) -> Result<(), GpuError> {
 /// Drawing order of the layers, the uppermost first.
 fn layer(class: SceneClass) -> u8 {
     match class {
-        SceneClass::Building => 0,
+        SceneClass::Building | SceneClass::Vegetation => 0,
         SceneClass::Highway => 1,
         SceneClass::Water => 2,
         SceneClass::Leisure => 3,

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 
 use super::build::BuiltScene;
@@ -12,6 +13,7 @@ use crate::dataset::writer::sha256;
 use crate::interpreter::FileAssets;
 use crate::interpreter::reports::Report;
 use crate::plan::demand::{Projection, ViewDemand};
+use crate::plan::effects::{Ambient, Bands, BitDepth, Look, Sensor};
 use crate::plan::sun::to_angles;
 use crate::scene::Scene;
 use crate::source::SourceMap;
@@ -125,7 +127,7 @@ pub fn geometry_hash(scene: &Scene) -> String {
     hash.finalize().iter().map(|b| format!("{b:02x}")).collect()
 }
 
-/// Camera and sun of one acquisition for the manifest.
+/// Camera, sun and effects of one acquisition for the manifest.
 pub fn acquisition_record(demand: &ViewDemand) -> AcquisitionRecord {
     let camera = &demand.camera;
     let (projection, half_x, half_y) = match camera.projection {
@@ -146,5 +148,52 @@ pub fn acquisition_record(demand: &ViewDemand) -> AcquisitionRecord {
         half_y,
         sun_elevation: sun.map(|(elevation, _)| elevation),
         sun_azimuth: sun.map(|(_, azimuth)| azimuth),
+        effects: demand.outputs.iter().filter_map(|o| Some((o.pass.clone(), effects_record(&o.look)?))).collect(),
     }
+}
+
+/// What an image has besides sun and ambient light, in the units of [`Look`].
+fn effects_record(look: &Look) -> Option<Value> {
+    let mut record = serde_json::Map::new();
+    let mut add =
+        |name: &str, value: Option<Value>| value.into_iter().for_each(|v| drop(record.insert(name.into(), v)));
+    let occluded = matches!(look.ambient, Ambient::Sky { occluded: true, .. });
+    add("ambient", occluded.then(|| "sky_with_occlusion".into()));
+    let haze = look.haze.map(|h| {
+        json!({ "extinction": h.extinction, "scale_height": h.scale_height, "base": h.base, "airlight": h.airlight })
+    });
+    add("atmosphere", haze);
+    let clouds = look.clouds.map(|c| {
+        json!({ "key": c.key, "cover": c.cover, "height": c.height, "size": c.size, "depth": c.depth, "colour": c.color })
+    });
+    add("clouds", clouds);
+    let ground = look.ground.as_ref().map(|g| {
+        let kind = format!("{:?}", g.kind).to_lowercase();
+        json!({ "key": g.key, "kind": kind, "share": g.strength, "within": g.reach, "discs": g.around.len() })
+    });
+    add("ground", ground);
+    add("sensor", look.sensor.as_ref().map(sensor_record));
+    (!record.is_empty()).then_some(Value::Object(record))
+}
+
+fn sensor_record(sensor: &Sensor) -> Value {
+    let bands = match sensor.bands {
+        Bands::Rgb => "rgb",
+        Bands::Nir(_) => "nir",
+        Bands::Panchromatic(_) => "panchromatic",
+        Bands::FalseColor(_) => "false_colour",
+    };
+    let infrared = sensor.bands.near_infrared().map(|n| {
+        json!({ "sun": n.sun, "zenith": n.zenith, "ground": n.ground, "extinction": n.extinction, "airlight": n.airlight })
+    });
+    json!({
+        "key": sensor.key,
+        "psf": sensor.psf,
+        "exposure": sensor.exposure,
+        "noise": sensor.read_noise,
+        "full_well": sensor.full_well,
+        "depth": if sensor.depth == BitDepth::Sixteen { 16 } else { 8 },
+        "bands": bands,
+        "near_infrared": infrared,
+    })
 }

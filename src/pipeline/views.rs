@@ -10,6 +10,8 @@ use super::error::PipelineError;
 use super::progress::Progress;
 use super::recipe::Recipe;
 use crate::dataset::manifest::BudgetRecord;
+use crate::plan::demand::OutputDemand;
+use crate::plan::effects::{Ambient, Bands, BitDepth, Look};
 use crate::plan::view::{DrawnView, SceneSummary, views};
 use crate::plan::{RenderPlan, dump, schedule, summarize};
 use crate::spec::render_spec::DatasetSpec;
@@ -45,6 +47,8 @@ pub struct PlannedScene {
     pub derivation: Vec<String>,
     /// What an error budget came to.
     pub budget: Option<BudgetRecord>,
+    /// Lines on what lights and takes an image besides sun and ambient light.
+    pub effects: Vec<String>,
     pub plan: RenderPlan,
 }
 
@@ -67,11 +71,55 @@ pub fn plan_views(recipe: &Recipe, progress: &dyn Progress) -> Result<PlannedRec
                 scene: built.record.name.clone(),
                 derivation: derivation(&built),
                 budget: settled.record,
+                effects: views.drawn.iter().flat_map(effects).collect(),
                 plan: views.plan,
             });
         }
     }
     Ok(PlannedRecipe { scenes })
+}
+
+/// A line for each image that has more than sun and ambient light.
+fn effects(view: &DrawnView) -> Vec<String> {
+    let outputs = view.demands.iter().flat_map(|demand| &demand.outputs);
+    let line = |output: &OutputDemand| {
+        let terms = terms(&output.look);
+        (!terms.is_empty()).then(|| format!("effects of {} {}: {}", view.name, output.pass, terms.join("; ")))
+    };
+    outputs.filter_map(line).collect()
+}
+
+fn terms(look: &Look) -> Vec<String> {
+    let mut terms = Vec::new();
+    if let Ambient::Sky { occluded: true, .. } = look.ambient {
+        terms.push("the scene hides the sky".to_owned());
+    }
+    if let Some(haze) = &look.haze {
+        terms.push(format!("haze {:.2e} per m, scale height {:.0} m", haze.extinction[1], haze.scale_height));
+    }
+    if let Some(clouds) = &look.clouds {
+        let (cover, depth) = (100.0 * clouds.cover, clouds.depth);
+        terms.push(format!("clouds {cover:.0} % at {:.0} m, optical depth {depth:.1}", clouds.height));
+    }
+    if let Some(ground) = &look.ground {
+        let (kind, share) = (format!("{:?}", ground.kind).to_lowercase(), 100.0 * ground.strength);
+        terms.push(format!("{kind} {share:.0} % within {:.0} m of {} discs", ground.reach, ground.around.len()));
+    }
+    if let Some(sensor) = &look.sensor {
+        let bands = match sensor.bands {
+            Bands::Rgb => "rgb",
+            Bands::Nir(_) => "nir",
+            Bands::Panchromatic(_) => "panchromatic",
+            Bands::FalseColor(_) => "false colour",
+        };
+        let bits = if sensor.depth == BitDepth::Sixteen { 16 } else { 8 };
+        let noise = 100.0 * sensor.read_noise;
+        terms.push(format!(
+            "sensor {bands}, {bits} bit, psf {:.2} px, exposure {:.3}, noise {noise:.1} %, full well {:.0}",
+            sensor.psf, sensor.exposure, sensor.full_well
+        ));
+    }
+    terms
 }
 
 fn derivation(built: &BuiltScene) -> Vec<String> {
@@ -98,7 +146,8 @@ impl PlannedRecipe {
     pub fn text(&self) -> String {
         let scene = |s: &PlannedScene| {
             let budget = s.budget.as_ref().map(budget::lines).unwrap_or_default();
-            let derivation: String = s.derivation.iter().chain(&budget).map(|line| format!("  {line}\n")).collect();
+            let lines = s.derivation.iter().chain(&s.effects).chain(&budget);
+            let derivation: String = lines.map(|line| format!("  {line}\n")).collect();
             format!("dataset {}, scene {}\n{derivation}{}", s.dataset, s.scene, dump::text(&s.plan))
         };
         self.scenes.iter().map(scene).collect()
@@ -110,6 +159,7 @@ impl PlannedRecipe {
                 "dataset": s.dataset,
                 "scene": s.scene,
                 "derivation": s.derivation,
+                "effects": s.effects,
                 "plan": dump::json(&s.plan),
             });
             if let Some(budget) = &s.budget {

@@ -1,12 +1,14 @@
 //! Plan: what the recipe demands → which passes run, in which order, over which resources. No GPU here.
 
 pub mod change;
+pub mod clear_sky;
 pub mod demand;
 pub mod dump;
 pub mod effects;
 pub mod field;
 mod finite;
 pub mod light;
+mod look;
 pub mod pass;
 pub mod resource;
 pub mod schedule;

@@ -1,13 +1,34 @@
-//! In: where the recipe puts the sun and the seed of a view. Out: the sun as the renderer needs it.
+//! In: where the recipe puts the sun and the seed of a view. Out: the sun as the renderer needs it, and the light of its
+//! sky.
 
 use glam::DVec3;
 
+use super::clear_sky::Daylight;
 use super::demand::Sun;
+use super::effects::with_red_as_infrared;
 use super::view::Drawer;
+use crate::spec::effects::{DEFAULT_INTENSITY, SunColour};
 use crate::spec::render_spec::{SunPosition, SunSpec};
 
+/// Linear RGB irradiance of a clear sky on a surface that faces up, where the sun's colour is given.
+const SKY_ZENITH: [f64; 3] = [0.24, 0.3, 0.38];
+/// Linear RGB irradiance of sunlit ground on a surface that faces down, where the sun's colour is given.
+const SKY_GROUND: [f64; 3] = [0.12, 0.11, 0.1];
+
+/// The light of one acquisition.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Light {
+    pub sun: Sun,
+    /// Irradiance of a surface that faces the sun, red, green, blue, near infrared.
+    pub beam: [f64; 4],
+    /// Radiance of the sky, as the irradiance that it gives.
+    pub sky: [f64; 4],
+    /// The same of the ground.
+    pub ground: [f64; 4],
+}
+
 /// Makes the draws `sun.…` of a view and records them with the elevation and azimuth that follow.
-pub(super) fn sun(spec: &SunSpec, drawer: &mut Drawer) -> Sun {
+pub(super) fn light(spec: &SunSpec, drawer: &mut Drawer) -> Light {
     let direction = match &spec.position {
         SunPosition::Angles { elevation, azimuth } => {
             from_angles(drawer.draw("sun.elevation", elevation), drawer.draw("sun.azimuth", azimuth))
@@ -24,7 +45,21 @@ pub(super) fn sun(spec: &SunSpec, drawer: &mut Drawer) -> Sun {
     };
     let disc_deg = drawer.draw("sun.disc", &spec.disc);
     let intensity = drawer.draw("sun.intensity", &spec.intensity);
-    Sun { direction, disc_deg, irradiance: spec.colour.map(|channel| channel * intensity) }
+    let (beam, sky, ground) = match &spec.colour {
+        SunColour::Fixed(colour) => (
+            with_red_as_infrared(colour.map(|channel| channel * intensity)),
+            with_red_as_infrared(SKY_ZENITH),
+            with_red_as_infrared(SKY_GROUND),
+        ),
+        SunColour::ClearSky { turbidity } => {
+            let (elevation, _) = to_angles(direction);
+            let day = Daylight::clear_sky(elevation, drawer.draw("sun.turbidity", turbidity));
+            let scaled = |light: [f64; 4]| light.map(|band| band * intensity / DEFAULT_INTENSITY);
+            (scaled(day.sun), scaled(day.sky), scaled(day.ground(elevation)))
+        }
+    };
+    let [r, g, b, _] = beam;
+    Light { sun: Sun { direction, disc_deg, irradiance: [r, g, b] }, beam, sky, ground }
 }
 
 /// Unit vector in world axes from degrees above the horizon and degrees clockwise from north.

@@ -1,30 +1,24 @@
 //! In: a checked recipe and a summary of a derived scene. Out: what every view asks for, with all draws made.
 //!
 //! A draw is keyed by scene seed, camera name, the view's number among those of its camera, acquisition and property:
-//! another view, pass or property never changes it.
+//! another view, pass or property never changes it. What lies on the ground is keyed by the scene alone.
 
 use std::sync::Arc;
 
 use glam::DVec3;
 use serde::Serialize;
 
-use super::demand::{
-    Ambient, Camera, Look, Output, OutputDemand, Projection, Quality, Selection, Shadows, State, ViewDemand,
-};
-use super::sun::sun;
+use super::demand::{Camera, Look, Output, OutputDemand, Projection, Quality, Selection, State, ViewDemand};
+use super::look::{Surroundings, look};
+use super::sun::light;
 use crate::geodata::feature::FeatureId;
 use crate::interpreter::seed::Seed;
-use crate::scene::{Presence, Scene, SceneClass};
+use crate::scene::{Presence, Scene, SceneClass, TriMesh};
 use crate::spec::draw::Distribution;
 use crate::spec::render_spec::{
-    AcquisitionSpec, AmbientSpec, CameraSpec, DatasetSpec, Lens, OutputSpec, PassSpec, RenderSpec, SetSpec,
-    ShadowsSpec, StateSpec, ViewSpec,
+    AcquisitionSpec, CameraSpec, DatasetSpec, Lens, OutputSpec, PassSpec, RenderSpec, SetSpec, StateSpec, ViewSpec,
 };
 
-/// Linear RGB irradiance of a clear sky on a surface that faces up.
-const SKY_ZENITH: [f64; 3] = [0.24, 0.3, 0.38];
-/// Linear RGB irradiance of sunlit ground on a surface that faces down.
-const SKY_GROUND: [f64; 3] = [0.12, 0.11, 0.1];
 /// Metres; the near plane is never nearer.
 const LEAST_NEAR: f64 = 0.1;
 
@@ -39,14 +33,18 @@ pub struct SceneSummary {
     pub objects: Vec<PlacedObject>,
 }
 
-/// What selections need to know of an object.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// What selections and effects need to know of an object.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlacedObject {
     pub feature: Option<FeatureId>,
     pub class: SceneClass,
     pub presence: Presence,
     /// Number of the change, from 1; 0 for none.
     pub change: u16,
+    /// Level of the change; 0 for what no change is about, such as ground that one takes over.
+    pub level: u8,
+    /// Least and greatest corner, world metres; `None` for an empty mesh.
+    pub bounds: Option<(DVec3, DVec3)>,
 }
 
 impl SceneSummary {
@@ -56,9 +54,16 @@ impl SceneSummary {
             class: object.class,
             presence: object.presence,
             change: object.change,
+            level: object.level,
+            bounds: bounds(&object.mesh),
         });
         SceneSummary { bounds: scene.bounds, centre, objects: objects.collect() }
     }
+}
+
+fn bounds(mesh: &TriMesh) -> Option<(DVec3, DVec3)> {
+    let corners = mesh.positions.iter().map(|&p| (p, p));
+    corners.reduce(|(low, high), (p, _)| (low.min(p), high.max(p)))
 }
 
 /// A property of a view and the value it has, such as `camera.off_nadir`: degrees, metres or plain numbers.
@@ -77,7 +82,8 @@ pub struct DrawnView {
     /// One for each acquisition that differs in camera or sun, all under the view's name; their images together are
     /// the view's.
     pub demands: Vec<ViewDemand>,
-    /// Every camera and sun property; those of a named acquisition start with its name.
+    /// Every property of camera, sun and effects; those of a named acquisition start with its name, those of a pass's own
+    /// effects with the pass's.
     pub draws: Vec<Draw>,
 }
 
@@ -86,7 +92,23 @@ pub fn views(spec: &RenderSpec, dataset: &DatasetSpec, scene: usize, summary: &S
     let of_scene = dataset.views.iter().enumerate().filter(|(_, view)| view.scene == scene);
     let passes: Vec<&PassSpec> = dataset.passes.iter().map(|&pass| &spec.passes[pass]).collect();
     let outputs: Vec<Vec<OutputDemand>> = passes.iter().map(|pass| outputs(pass, spec, dataset, summary)).collect();
-    of_scene.map(|(index, view)| drawn_view(index, view, spec, dataset, summary, &passes, &outputs)).collect()
+    let surroundings: Vec<Surroundings> =
+        passes.iter().map(|pass| Surroundings::new(pass, spec, dataset, scene, summary)).collect();
+    let prepared: Vec<Prepared> = passes
+        .into_iter()
+        .zip(outputs)
+        .zip(surroundings)
+        .map(|((pass, outputs), surroundings)| Prepared { pass, outputs, surroundings })
+        .collect();
+    of_scene.map(|(index, view)| drawn_view(index, view, spec, dataset, summary, &prepared)).collect()
+}
+
+/// A pass with what is the same for every view.
+struct Prepared<'a> {
+    pass: &'a PassSpec,
+    /// Without looks.
+    outputs: Vec<OutputDemand>,
+    surroundings: Surroundings<'a>,
 }
 
 fn drawn_view(
@@ -95,30 +117,34 @@ fn drawn_view(
     spec: &RenderSpec,
     dataset: &DatasetSpec,
     summary: &SceneSummary,
-    passes: &[&PassSpec],
-    outputs: &[Vec<OutputDemand>],
+    passes: &[Prepared],
 ) -> DrawnView {
     let seed = Seed::root(spec.scenes[view.scene].seed).named("view").named(&view.camera.name);
     let seed = seed.part(u64::from(view.number));
     let mut acquisitions: Vec<Option<&AcquisitionSpec>> = Vec::new();
-    for pass in passes {
-        if !acquisitions.contains(&pass.acquisition.as_ref()) {
-            acquisitions.push(pass.acquisition.as_ref());
+    for prepared in passes {
+        if !acquisitions.contains(&prepared.pass.acquisition.as_ref()) {
+            acquisitions.push(prepared.pass.acquisition.as_ref());
         }
     }
     let mut draws = Vec::new();
     let mut demands = Vec::new();
     for acquisition in acquisitions {
-        let mut drawer = Drawer { seed, acquisition, draws: &mut draws };
+        let mut drawer = Drawer { seed, acquisition, pass: None, draws: &mut draws };
         let camera = camera(&view.camera, summary, &mut drawer);
-        let sun = sun(&dataset.sun, &mut drawer);
-        let own = passes.iter().zip(outputs).filter(|(pass, _)| pass.acquisition.as_ref() == acquisition);
-        let outputs: Vec<OutputDemand> = own.flat_map(|(_, outputs)| outputs.iter().cloned()).collect();
+        let light = light(&dataset.sun, &mut drawer);
+        let mut outputs = Vec::new();
+        for own in passes.iter().filter(|prepared| prepared.pass.acquisition.as_ref() == acquisition) {
+            let seen = own.outputs.iter().any(|output| output.output == Output::Color);
+            let look = if seen { look(&own.surroundings, own.pass, &light, &mut drawer) } else { Look::none() };
+            let look_of = |output: Output| if output == Output::Color { look.clone() } else { Look::none() };
+            outputs.extend(own.outputs.iter().map(|o| OutputDemand { look: look_of(o.output), ..o.clone() }));
+        }
         let lit = outputs.iter().any(|output| output.output == Output::Color);
         demands.push(ViewDemand {
             name: view.name.clone(),
             camera,
-            sun: lit.then_some(sun),
+            sun: lit.then_some(light.sun),
             quality: Quality::from(&dataset.quality),
             outputs,
         });
@@ -128,21 +154,28 @@ fn drawn_view(
 
 /// Draws properties of one view in one acquisition and writes them down.
 pub(super) struct Drawer<'a> {
-    seed: Seed,
+    pub(super) seed: Seed,
     acquisition: Option<&'a AcquisitionSpec>,
+    /// The pass that overrides the effect that is being drawn.
+    pub(super) pass: Option<&'a str>,
     draws: &'a mut Vec<Draw>,
 }
 
 impl Drawer<'_> {
-    /// The value of a property; `path` starts with `camera.` or `sun.`.
+    /// The value of a property; `path` starts with `camera.`, `sun.` or `effects.`.
     pub fn draw(&mut self, path: &str, distribution: &Distribution) -> f64 {
-        let seed = match self.redrawn_by(path) {
-            Some(acquisition) => self.seed.named("acquisition").named(&acquisition.name),
-            None => self.seed,
-        };
-        let value = distribution.draw(seed.named(path));
+        let value = distribution.draw(self.seed_of(path));
         self.record(path, value);
         value
+    }
+
+    /// The seed of a property.
+    pub fn seed_of(&self, path: &str) -> Seed {
+        match self.redrawn_by(path) {
+            Some(acquisition) => self.seed.named("acquisition").named(&acquisition.name),
+            None => self.seed,
+        }
+        .named(path)
     }
 
     /// Writes down a value that follows from draws.
@@ -150,6 +183,10 @@ impl Drawer<'_> {
         let path = match self.redrawn_by(path) {
             Some(acquisition) => format!("{}.{path}", acquisition.name),
             None => path.to_owned(),
+        };
+        let path = match self.pass {
+            Some(pass) => format!("{pass}.{path}"),
+            None => path,
         };
         let draw = Draw { path, value };
         // Acquisitions that share a property meet it again, with the same value.
@@ -160,8 +197,12 @@ impl Drawer<'_> {
 
     /// The acquisition, if it draws this property anew.
     fn redrawn_by(&self, path: &str) -> Option<&AcquisitionSpec> {
-        self.acquisition
-            .filter(|acquisition| if path.starts_with("sun.") { acquisition.sun } else { acquisition.camera })
+        let part = path.split('.').next().unwrap_or(path);
+        self.acquisition.filter(|acquisition| match part {
+            "sun" => acquisition.sun,
+            "effects" => acquisition.effects,
+            _ => acquisition.camera,
+        })
     }
 }
 
@@ -243,26 +284,26 @@ fn near(position: DVec3, forward: DVec3, summary: &SceneSummary) -> f64 {
     (0.99 * (corner - position).dot(forward)).max(LEAST_NEAR)
 }
 
-/// What a pass writes, the same for every view.
+/// What a pass writes, the same for every view but for its look.
 fn outputs(pass: &PassSpec, spec: &RenderSpec, dataset: &DatasetSpec, summary: &SceneSummary) -> Vec<OutputDemand> {
-    let shown = |object: &PlacedObject| visible(object, &pass.state) && member(object, &pass.show, spec);
+    let vegetation = dataset.effects.with(&pass.effects).vegetation;
+    let shown = |object: &PlacedObject| {
+        (vegetation || object.class != SceneClass::Vegetation)
+            && visible(object, &pass.state)
+            && member(object, &pass.show, spec)
+    };
     let objects: Arc<[bool]> = summary.objects.iter().map(shown).collect();
     let marked: Arc<[bool]> = match &pass.mark {
         Some(mark) => summary.objects.iter().map(|object| shown(object) && member(object, mark, spec)).collect(),
         None => objects.clone(),
     };
     let state = if pass.state == StateSpec::Before { State::Before } else { State::After };
-    let one = |(output, name): &(OutputSpec, String)| {
-        let lit = *output == OutputSpec::Colour;
-        let shadows = pass.shadows.unwrap_or(dataset.effects.shadows);
-        let ambient = pass.ambient.unwrap_or(dataset.effects.ambient);
-        OutputDemand {
-            pass: name.clone(),
-            output: output_of(*output),
-            selection: Selection { state, objects: objects.clone() },
-            marked: (*output == OutputSpec::Mask).then(|| marked.clone()),
-            look: if lit { Look::plain(shadows_of(shadows), ambient_of(ambient)) } else { Look::none() },
-        }
+    let one = |(output, name): &(OutputSpec, String)| OutputDemand {
+        pass: name.clone(),
+        output: output_of(*output),
+        selection: Selection { state, objects: objects.clone() },
+        marked: (*output == OutputSpec::Mask).then(|| marked.clone()),
+        look: Look::none(),
     };
     pass.outputs.iter().map(one).collect()
 }
@@ -283,6 +324,7 @@ fn member(object: &PlacedObject, set: &SetSpec, spec: &RenderSpec) -> bool {
     match set {
         SetSpec::All => true,
         SetSpec::Terrain => object.class == SceneClass::Terrain,
+        SetSpec::Vegetation => object.class == SceneClass::Vegetation,
         SetSpec::Class(class) => object.class == SceneClass::from(*class),
         SetSpec::Change(change) => usize::from(object.change) == change + 1,
         SetSpec::Changed => {
@@ -303,22 +345,6 @@ fn output_of(output: OutputSpec) -> Output {
         OutputSpec::Level => Output::Level,
         OutputSpec::Instance => Output::Instance,
         OutputSpec::Depth => Output::Depth,
-    }
-}
-
-fn shadows_of(shadows: ShadowsSpec) -> Shadows {
-    match shadows {
-        ShadowsSpec::Off => Shadows::Off,
-        ShadowsSpec::Hard => Shadows::Hard,
-        ShadowsSpec::Soft => Shadows::Soft,
-    }
-}
-
-fn ambient_of(ambient: AmbientSpec) -> Ambient {
-    match ambient {
-        AmbientSpec::Off => Ambient::Off,
-        AmbientSpec::Constant(radiance) => Ambient::Constant(radiance),
-        AmbientSpec::Sky => Ambient::Sky { zenith: SKY_ZENITH, ground: SKY_GROUND, occluded: false },
     }
 }
 

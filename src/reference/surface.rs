@@ -121,7 +121,7 @@ impl Surfaces {
 /// Uppermost first: what lies on the ground covers it.
 fn layer(class: SceneClass) -> u8 {
     match class {
-        SceneClass::Building => 0,
+        SceneClass::Building | SceneClass::Vegetation => 0,
         SceneClass::Highway => 1,
         SceneClass::Water => 2,
         SceneClass::Leisure => 3,

@@ -11,5 +11,6 @@ pub mod parts;
 pub mod reflectance;
 pub mod texture;
 mod triangles;
+pub mod vegetation;
 
 pub use model::{Group, Presence, Scene, SceneClass, SceneObject, TriMesh};

@@ -26,6 +26,8 @@ pub enum SceneClass {
     Natural = 5,
     Leisure = 6,
     Water = 7,
+    /// Trees and bushes, where the recipe asks for them.
+    Vegetation = 8,
 }
 
 impl From<FeatureClass> for SceneClass {
@@ -42,7 +44,7 @@ impl From<FeatureClass> for SceneClass {
 }
 
 impl SceneClass {
-    pub const ALL: [SceneClass; 7] = [
+    pub const ALL: [SceneClass; 8] = [
         SceneClass::Terrain,
         SceneClass::Building,
         SceneClass::Highway,
@@ -50,6 +52,7 @@ impl SceneClass {
         SceneClass::Natural,
         SceneClass::Leisure,
         SceneClass::Water,
+        SceneClass::Vegetation,
     ];
 
     /// The name in manifests and glTF extras.
@@ -62,6 +65,7 @@ impl SceneClass {
             SceneClass::Natural => "natural",
             SceneClass::Leisure => "leisure",
             SceneClass::Water => "water",
+            SceneClass::Vegetation => "vegetation",
         }
     }
 }

@@ -43,6 +43,7 @@ const WORDS: &[(&str, Surface)] = &[
     ("forest", Surface::Leaves),
     ("meadow", Surface::DryPlants),
     ("crop", Surface::DryPlants),
+    ("bark", Surface::Soil),
     ("soil", Surface::Soil),
     ("dirt", Surface::Soil),
     ("mulch", Surface::Soil),
@@ -89,6 +90,7 @@ fn surface(class: SceneClass, material: &Material, texture: &str) -> Surface {
                 Surface::Mineral
             }
         }
+        SceneClass::Vegetation => Surface::Leaves,
         SceneClass::Building | SceneClass::Highway | SceneClass::Water => Surface::Mineral,
     }
 }

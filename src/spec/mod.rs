@@ -6,6 +6,7 @@
 pub mod ast;
 mod check;
 pub mod draw;
+pub mod effects;
 mod expression;
 pub mod filter;
 mod inherit;

@@ -177,6 +177,15 @@ impl Cutter<'_, '_> {
             self.reader.error("spec::syntax", clause.word.span, message);
             return;
         }
+        let clauses = &open.property.clauses;
+        let repeated = (1..clauses.len()).find(|&i| clauses[..i].iter().any(|c| c.word.text == clauses[i].word.text));
+        if let Some(repeated) = repeated.map(|i| &clauses[i].word)
+            && !open.malformed
+        {
+            let message = format!("`{}` is given twice", repeated.text);
+            self.reader.error("spec::repeated-property", repeated.span, message);
+            return;
+        }
         if !open.malformed {
             self.done.push(open.property);
         }

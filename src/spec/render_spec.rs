@@ -5,6 +5,10 @@
 use std::path::{Path, PathBuf};
 
 use super::draw::{Distribution, pick};
+pub use super::effects::{
+    AmbientSpec, BandsSpec, CloudsSpec, EffectOverrides, EffectsSpec, ExposureSpec, GroundKindSpec, GroundSpec,
+    HazeSpec, SensorSpec, ShadowsSpec, SunColour,
+};
 use super::filter::Filter;
 use crate::geodata::feature::FeatureClass;
 use crate::interpreter::seed::Seed;
@@ -246,8 +250,8 @@ pub struct SunSpec {
     pub disc: Distribution,
     /// Irradiance on a surface that faces the sun; 1 shows a white diffuse surface as white.
     pub intensity: Distribution,
-    /// Linear RGB, times the intensity.
-    pub colour: [f64; 3],
+    /// Linear RGB at intensity 1.
+    pub colour: SunColour,
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -257,27 +261,6 @@ pub enum SunPosition {
     /// The seed paper's arc in degrees: 0 the eastern horizon, 90 the top, 180 the western horizon; the arc is tilted
     /// towards the south by `tilt` and then turned clockwise by `turn`.
     Arc { declination: Distribution, tilt: Distribution, turn: Distribution },
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ShadowsSpec {
-    Off,
-    Hard,
-    Soft,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum AmbientSpec {
-    Off,
-    /// Linear RGB.
-    Constant([f64; 3]),
-    Sky,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct EffectsSpec {
-    pub shadows: ShadowsSpec,
-    pub ambient: AmbientSpec,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -326,6 +309,8 @@ pub enum SetSpec {
     All,
     Terrain,
     Class(FeatureClass),
+    /// What the effect `vegetation` adds.
+    Vegetation,
     /// Touched by this change.
     Change(usize),
     /// Touched by a change that is not `non_target`.
@@ -355,12 +340,13 @@ pub enum OutputSpec {
     Depth,
 }
 
-/// Passes of one acquisition share the camera and the sun of a view; another acquisition draws its own.
+/// Passes of one acquisition share the camera, the sun and the effects of a view; another acquisition draws its own.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct AcquisitionSpec {
     pub name: String,
     pub camera: bool,
     pub sun: bool,
+    pub effects: bool,
 }
 
 /// What is shown and what is written.
@@ -375,9 +361,8 @@ pub struct PassSpec {
     pub mark: Option<SetSpec>,
     /// At least one. Image names are the pass's name, or `pass_output` where it has several.
     pub outputs: Vec<(OutputSpec, String)>,
-    /// Overrides of the dataset's effects.
-    pub shadows: Option<ShadowsSpec>,
-    pub ambient: Option<AmbientSpec>,
+    /// What it says of effects, instead of the dataset's.
+    pub effects: EffectOverrides,
     /// `None`: the view's own draws.
     pub acquisition: Option<AcquisitionSpec>,
 }

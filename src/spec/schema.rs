@@ -46,6 +46,11 @@ impl Key {
     }
 }
 
+const ATMOSPHERE: Key = key("atmosphere").clauses(&["visibility", "scale_height"]);
+const CLOUDS: Key = key("clouds").clauses(&["height", "size", "depth"]);
+const GROUND: Key = key("ground").clauses(&["share", "within"]);
+const SENSOR: Key = key("sensor").clauses(&["psf", "exposure", "noise", "full_well", "depth", "bands"]);
+
 /// All blocks of the language.
 pub const BLOCKS: &[BlockShape] = &[
     BlockShape {
@@ -107,14 +112,7 @@ pub const BLOCKS: &[BlockShape] = &[
     },
     BlockShape {
         kind: "effects",
-        keys: &[
-            key("shadows"),
-            key("ambient"),
-            key("atmosphere").later(),
-            key("clouds").later(),
-            key("vegetation").later(),
-            key("sensor").later(),
-        ],
+        keys: &[key("shadows"), key("ambient"), ATMOSPHERE, CLOUDS, GROUND, key("vegetation"), SENSOR],
     },
     BlockShape {
         kind: "pass",
@@ -123,10 +121,11 @@ pub const BLOCKS: &[BlockShape] = &[
             key("acquisition").clauses(&["redraw"]),
             key("shadows"),
             key("ambient"),
-            key("atmosphere").later(),
-            key("clouds").later(),
-            key("vegetation").later(),
-            key("sensor").later(),
+            ATMOSPHERE,
+            CLOUDS,
+            GROUND,
+            key("vegetation"),
+            SENSOR,
         ],
     },
     BlockShape {
@@ -163,7 +162,7 @@ pub const BLOCKS: &[BlockShape] = &[
 ];
 
 /// Words that cannot name a change.
-pub const RESERVED: &[&str] = &["all", "both", "before", "changed", "unchanged", "terrain"];
+pub const RESERVED: &[&str] = &["all", "both", "before", "changed", "unchanged", "terrain", "vegetation"];
 
 impl BlockShape {
     pub fn find(kind: &str) -> Option<&'static BlockShape> {
@@ -221,6 +220,7 @@ mod tests {
             include_str!("check/scene.rs"),
             include_str!("check/change.rs"),
             include_str!("check/camera.rs"),
+            include_str!("check/effects.rs"),
             include_str!("check/light.rs"),
             include_str!("check/quality.rs"),
             include_str!("check/pass.rs"),

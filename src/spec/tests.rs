@@ -1,5 +1,7 @@
 //! Whole recipes in, specs and diagnostic codes out.
 
+mod effects;
+
 use std::fs;
 
 use super::render_spec::{
@@ -284,12 +286,6 @@ fn every_part_of_the_language_that_is_not_evaluated_says_so() {
         "camera d { clip near 10m far 5km }",
         "sun { time 18:30+02:00 }",
         "sun { place 38.4, -122.7 }",
-        "sun { colour clear_sky }",
-        "effects { ambient sky_with_occlusion }",
-        "effects { atmosphere haze(visibility = 20km) }",
-        "effects { sensor psf(0.7px), noise(1%), quantisation(11) }",
-        "effects { clouds cover(30%) }",
-        "effects { vegetation on }",
         "quality { error 1% }",
         "pass p { show all as normal }",
         "pass p { show building[house] }",
@@ -482,6 +478,9 @@ fn the_examples_load() {
     let (spec, diagnostics) = example("riverside/riverside.render", &[]);
     let spec = spec.unwrap_or_else(|| panic!("{diagnostics:?}"));
     assert_eq!((spec.scenes[0].rules.len(), spec.datasets[0].views.len()), (5, 3));
+    let (spec, diagnostics) = example("effects/hazeldown.render", &[]);
+    let spec = spec.unwrap_or_else(|| panic!("{diagnostics:?}"));
+    assert!(spec.datasets[0].effects.vegetation && spec.passes[3].effects.sensor.is_some());
     let inputs = [("map", "a.osm,b.osm"), ("elevation", "c.tif"), ("window", "-122.7240,38.4182,-122.7010,38.4362")];
     let (spec, diagnostics) = example("syncw/syncw.render", &inputs);
     let spec = spec.unwrap_or_else(|| panic!("{diagnostics:?}"));

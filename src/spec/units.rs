@@ -11,6 +11,8 @@ pub enum Dimension {
     Share,
     /// Pixels or texels.
     Pixels,
+    /// Bits of a number.
+    Bits,
     /// No unit.
     Plain,
 }
@@ -27,6 +29,7 @@ const UNITS: &[(&str, Dimension, f64)] = &[
     ("rad", Dimension::Angle, 180.0 / std::f64::consts::PI),
     ("%", Dimension::Share, 0.01),
     ("px", Dimension::Pixels, 1.0),
+    ("bit", Dimension::Bits, 1.0),
 ];
 
 pub fn is_unit(text: &str) -> bool {
@@ -46,6 +49,7 @@ impl Dimension {
             Dimension::Angle => "deg",
             Dimension::Share => "%",
             Dimension::Pixels => "px",
+            Dimension::Bits => "bit",
             Dimension::Plain => "",
         }
     }
@@ -57,6 +61,7 @@ impl Dimension {
             Dimension::Angle => "an angle",
             Dimension::Share => "a share",
             Dimension::Pixels => "a number of pixels",
+            Dimension::Bits => "a number of bits",
             Dimension::Plain => "a plain number",
         }
     }

@@ -6,7 +6,7 @@ use crate::cost::sweep::Sweep;
 /// Names of the columns.
 pub fn header() -> Vec<String> {
     let fixed = ["kind", "knob", "value", "antialiasing", "shadow_map", "shadow_samples", "sky_samples", "field_map"];
-    let times = ["time_ms", "time_least_ms", "time_most_ms", "repeats"];
+    let times = ["time_ms", "time_least_ms", "time_most_ms", "repeats", "passes_ms"];
     let errors = Metric::ALL.map(column);
     let alone = Metric::ALL.map(|metric| format!("{}_alone", column(metric)));
     let frontier = Metric::ALL.map(|metric| format!("frontier_{}", column(metric)));
@@ -35,6 +35,8 @@ pub fn to_csv(sweep: &Sweep) -> Vec<u8> {
         line.extend([samples, q.shadow_map, q.shadow_samples, q.sky_samples, q.field_map].map(|n| n.to_string()));
         line.extend([row.times.median, row.times.least, row.times.most].map(|ms| format!("{ms:.3}")));
         line.push(row.times.repeats.to_string());
+        let passes = row.times.passes.iter().map(|(pass, ms)| format!("{pass} {ms:.3}"));
+        line.push(passes.collect::<Vec<_>>().join("; "));
         line.extend(values(Some(&row.errors)));
         line.extend([row.errors.differing.to_string(), format!("{:.6}", row.errors.noise)]);
         line.extend(values(row.alone.as_ref()));

@@ -76,7 +76,7 @@ mod tests {
             setting: Setting::of(FINE),
             alone: Some(Errors { light: error, ..Errors::default() }),
             errors: Errors::default(),
-            times: Times { median: ms, least: ms, most: ms, repeats: 3 },
+            times: Times { median: ms, least: ms, most: ms, repeats: 3, passes: Vec::new() },
         }
     }
 

@@ -1,6 +1,6 @@
 //! The map in memory, whatever file it came from. In: objects in any order. Out: sorted, deduplicated [`OsmData`].
 //!
-//! Node tags are not kept: no feature class is made of single nodes.
+//! Node tags are kept for plants alone: no feature class is made of single nodes.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -185,6 +185,8 @@ pub struct Shape<'a> {
 #[derive(Clone, Debug, Default)]
 pub struct OsmData {
     nodes: Vec<(i64, Position)>,
+    /// Nodes that stand for a plant.
+    plants: Vec<(i64, Span)>,
     ways: Vec<WayRecord>,
     relations: Vec<RelationRecord>,
     shapes: Vec<ShapeRecord>,
@@ -199,6 +201,11 @@ pub struct OsmData {
 impl OsmData {
     pub fn node(&self, id: i64) -> Option<Position> {
         self.nodes.binary_search_by_key(&id, |n| n.0).ok().map(|i| self.nodes[i].1)
+    }
+
+    /// Nodes with `natural=tree` or `natural=shrub`, by id.
+    pub fn plants(&self) -> impl Iterator<Item = (i64, Position, TagsView<'_>)> {
+        self.plants.iter().filter_map(|(id, tags)| Some((*id, self.node(*id)?, self.tags_view(tags))))
     }
 
     pub fn node_count(&self) -> usize {
@@ -259,6 +266,17 @@ impl OsmBuilder {
 
     pub fn node(&mut self, id: i64, position: Position) {
         self.data.nodes.push((id, position));
+    }
+
+    /// Whether tags of a node are worth keeping.
+    pub fn is_plant(key: &str, value: &str) -> bool {
+        key == "natural" && matches!(value, "tree" | "shrub")
+    }
+
+    /// Keeps the tags of a node that [`Self::is_plant`].
+    pub fn plant(&mut self, id: i64, tags: impl IntoIterator<Item = (u32, u32)>) {
+        let tags = extend(&mut self.data.tags, tags);
+        self.data.plants.push((id, tags));
     }
 
     /// Adds a node that has no id in the file; ids from the far end of the range, which OSM never uses.
@@ -326,6 +344,8 @@ impl OsmBuilder {
             d.nodes.sort_by_key(|n| n.0);
             d.nodes.dedup_by_key(|n| n.0);
         }
+        d.plants.sort_by_key(|p| p.0);
+        d.plants.dedup_by_key(|p| p.0);
         d.ways.sort_by_key(|w| (w.id, w.stub));
         d.ways.dedup_by_key(|w| w.id);
         d.relations.sort_by_key(|r| r.id);

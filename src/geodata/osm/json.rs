@@ -150,6 +150,10 @@ fn add(builder: &mut OsmBuilder, element: Element) -> Result<(), String> {
     match element.kind.as_str() {
         "node" => {
             builder.node(id, position(element.lon, element.lat).ok_or_else(|| format!("node {id} has no position"))?);
+            if element.tags.iter().any(|(key, value)| OsmBuilder::is_plant(key, value)) {
+                let tags = tags(builder, &element);
+                builder.plant(id, tags);
+            }
         }
         "way" => {
             let refs = way_refs(builder, &element)?;

@@ -168,9 +168,12 @@ fn data(message: &[u8], builder: &mut OsmBuilder) -> Result<(), BlobFault> {
     for group in block.groups() {
         for node in group.nodes() {
             builder.node(node.id(), position(node.id(), node.nano_lon(), node.nano_lat())?);
+            strings.plant(node.id(), node.raw_tags().map(|(k, v)| (k as usize, v as usize)), builder)?;
         }
         for node in group.dense_nodes() {
             builder.node(node.id(), position(node.id(), node.nano_lon(), node.nano_lat())?);
+            // Negative numbers become numbers beyond the table.
+            strings.plant(node.id(), node.raw_tags().map(|(k, v)| (k as usize, v as usize)), builder)?;
         }
         for way in group.ways() {
             for (id, place) in way.refs().zip(way.node_locations()) {
@@ -218,6 +221,22 @@ impl Strings<'_> {
         let id = builder.string(text);
         self.ids[index] = Some(id);
         Ok(id)
+    }
+
+    /// Keeps the tags of a node that stands for a plant; those of others are not even looked up.
+    fn plant(
+        &mut self,
+        id: i64,
+        raw: impl Iterator<Item = (usize, usize)> + Clone,
+        builder: &mut OsmBuilder,
+    ) -> Result<(), BlobFault> {
+        let text = |index: usize| self.raw.get(index).and_then(|bytes| std::str::from_utf8(bytes).ok()).unwrap_or("");
+        if raw.clone().any(|(key, value)| OsmBuilder::is_plant(text(key), text(value))) {
+            let tags: Result<Vec<_>, BlobFault> =
+                raw.map(|(key, value)| Ok((self.get(key, builder)?, self.get(value, builder)?))).collect();
+            builder.plant(id, tags?);
+        }
+        Ok(())
     }
 
     fn tags(

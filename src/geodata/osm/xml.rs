@@ -48,6 +48,7 @@ fn xml_fault(error: quick_xml::Error, place: MapPlace) -> Fault {
 
 /// The object whose children are being read.
 enum Object {
+    Node { id: i64, tags: Vec<(u32, u32)>, is_plant: bool },
     Way { id: i64, refs: Vec<i64>, tags: Vec<(u32, u32)> },
     Relation { id: i64, members: Vec<(ObjectKind, i64, u32)>, tags: Vec<(u32, u32)> },
 }
@@ -93,7 +94,8 @@ impl Document<'_> {
             match self.object.take() {
                 Some(Object::Way { id, refs, tags }) => self.builder.way(id, refs, tags),
                 Some(Object::Relation { id, members, tags }) => self.builder.relation(id, members, tags),
-                None => {}
+                Some(Object::Node { id, tags, is_plant: true }) => self.builder.plant(id, tags),
+                Some(Object::Node { is_plant: false, .. }) | None => {}
             }
         }
         Ok(())
@@ -120,6 +122,7 @@ impl Document<'_> {
         let id = attributes.id("node")?;
         let position = attributes.position().ok_or_else(|| format!("node {id} has no valid lat and lon"))?;
         self.builder.node(id, position);
+        self.object = Some(Object::Node { id, tags: Vec::new(), is_plant: false });
         Ok(())
     }
 
@@ -164,12 +167,16 @@ impl Document<'_> {
     }
 
     fn tag(&mut self, attributes: &Attributes) -> Step {
-        let tags = match &mut self.object {
-            Some(Object::Way { tags, .. } | Object::Relation { tags, .. }) => tags,
-            None => return Ok(()),
-        };
+        let Some(object) = &mut self.object else { return Ok(()) };
         let (Some(key), Some(value)) = (attributes.get("k"), attributes.get("v")) else {
             return Err("a <tag> without k and v".to_owned());
+        };
+        let tags = match object {
+            Object::Way { tags, .. } | Object::Relation { tags, .. } => tags,
+            Object::Node { tags, is_plant, .. } => {
+                *is_plant |= OsmBuilder::is_plant(key, value);
+                tags
+            }
         };
         tags.push((self.builder.string(key), self.builder.string(value)));
         Ok(())

@@ -1,9 +1,12 @@
 //! Recipes in, demands out.
 
+mod effects;
+
 use super::*;
 use crate::geodata::feature::FeatureClass;
 use crate::geodata::feature::{ObjectKind, Tags};
 use crate::plan::change::{Candidate, draw_changes};
+use crate::plan::effects::Shadows;
 use crate::source::{Access, SourceMap};
 
 const RECIPE: &str = "scene s { seed 3; map \"a.osm\" }\n\
@@ -28,7 +31,7 @@ fn load(text: &str) -> RenderSpec {
 }
 
 fn object(class: SceneClass, presence: Presence, change: u16) -> PlacedObject {
-    PlacedObject { feature: None, class, presence, change }
+    PlacedObject { feature: None, class, presence, change, level: u8::from(change > 0), bounds: None }
 }
 
 /// Terrain, an untouched house, a burnt house in both states, a painted house in both states, a road.

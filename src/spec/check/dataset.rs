@@ -4,9 +4,7 @@ use super::{Checker, Found, Named, get};
 use crate::source::Span;
 use crate::spec::ast::{Block, Expr, ExprKind, Name, Property};
 use crate::spec::inherit::{not_yet, unknown_name};
-use crate::spec::render_spec::{
-    AmbientSpec, CameraSpec, DatasetSpec, EffectsSpec, LayoutSpec, OutputSpec, Pair, ShadowsSpec, Split, ViewSpec,
-};
+use crate::spec::render_spec::{CameraSpec, DatasetSpec, EffectsSpec, LayoutSpec, OutputSpec, Pair, Split, ViewSpec};
 use crate::spec::schema::BlockShape;
 use crate::spec::units::Dimension;
 
@@ -22,9 +20,8 @@ impl Checker<'_> {
         let properties = &block.properties;
         let scenes = self.references(properties, "scenes", "scene", &found.scene_names);
         let passes = self.references(properties, "passes", "pass", &found.pass_names);
-        let effects = EffectsSpec { shadows: ShadowsSpec::Off, ambient: AmbientSpec::Off };
         let sun = self.named_block(block, "sun", &found.suns, Checker::default_sun(block.span));
-        let effects = self.named_block(block, "effects", &found.effects, effects);
+        let effects = self.named_block(block, "effects", &found.effects, EffectsSpec::OFF);
         let quality = self.named_block(block, "quality", &found.qualities, super::quality::STANDARD);
         self.only_word(properties, "format", &["png8"], &["png16", "geotiff", "cog"]);
         self.only_word(properties, "correction", &["raw"], &["ortho"]);

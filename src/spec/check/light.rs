@@ -1,18 +1,22 @@
-//! In: `sun` and `effects` blocks. Out: a [`SunSpec`], an [`EffectsSpec`].
+//! In: a `sun` block. Out: a [`SunSpec`].
 
 use super::{Checker, get};
 use crate::source::Span;
-use crate::spec::ast::{Block, Expr, ExprKind, Property};
+use crate::spec::ast::{Block, CallArgument, Expr, ExprKind, Property};
 use crate::spec::draw::Distribution;
-use crate::spec::render_spec::{AmbientSpec, EffectsSpec, ShadowsSpec, SunPosition, SunSpec};
+use crate::spec::effects::DEFAULT_INTENSITY;
+use crate::spec::render_spec::{SunColour, SunPosition, SunSpec};
 use crate::spec::units::Dimension;
 
 /// Degrees; the mean angular diameter of the sun's disc.
 pub const DEFAULT_DISC: f64 = 0.533;
-/// Leaves room for the sky, so that a white roof under sun and sky is not far above white.
-pub const DEFAULT_INTENSITY: f64 = 0.85;
 /// Linear RGB; sunlight through a clear sky is a little warm.
 pub const DEFAULT_COLOUR: [f64; 3] = [1.0, 0.96, 0.9];
+
+/// Linke's, of clean air in the country.
+pub const DEFAULT_TURBIDITY: f64 = 3.0;
+/// From air without dust or water to a hazy industrial town.
+const TURBIDITY: (f64, f64) = (2.0, 8.0);
 
 const ANY_ANGLE: (f64, f64) = (f64::NEG_INFINITY, f64::INFINITY);
 
@@ -24,7 +28,7 @@ impl Checker<'_> {
         let intensity = self.bounded(properties, "intensity", Dimension::Plain, (0.0, 100.0));
         let colour = match get(properties, "colour") {
             Some(property) => self.colour(property),
-            None => Some(DEFAULT_COLOUR),
+            None => Some(SunColour::Fixed(DEFAULT_COLOUR)),
         };
         Some(SunSpec {
             span: block.span,
@@ -42,7 +46,7 @@ impl Checker<'_> {
             position: default_position(),
             disc: Distribution::Fixed(DEFAULT_DISC),
             intensity: Distribution::Fixed(DEFAULT_INTENSITY),
-            colour: DEFAULT_COLOUR,
+            colour: SunColour::Fixed(DEFAULT_COLOUR),
         }
     }
 
@@ -102,8 +106,8 @@ impl Checker<'_> {
         None
     }
 
-    /// `"#ffeedd"` (sRGB) or three linear numbers.
-    fn colour(&mut self, property: &Property) -> Option<[f64; 3]> {
+    /// `"#ffeedd"` (sRGB), three linear numbers or a clear sky.
+    fn colour(&mut self, property: &Property) -> Option<SunColour> {
         if let [value] = property.values.as_slice()
             && let ExprKind::Text(text) = &value.kind
         {
@@ -111,23 +115,38 @@ impl Checker<'_> {
                 self.wrong(value, "a colour such as `\"#ffeedd\"`");
                 return None;
             };
-            return Some(colour);
+            return Some(SunColour::Fixed(colour));
         }
         if let [value] = property.values.as_slice()
-            && matches!(value.kind, ExprKind::Word(_))
+            && matches!(value.kind, ExprKind::Word(_) | ExprKind::Call { .. })
         {
-            self.word(value, &[], &["clear_sky"])?;
+            self.word(value, &["clear_sky"], &[])?;
+            return self.clear_sky(value);
         }
         let [red, green, blue] = property.values.as_slice() else {
-            let message = "a colour is `\"#ffeedd\"` or three linear numbers, red, green, blue";
+            let message = "a colour is `\"#ffeedd\"`, three linear numbers (red, green, blue) or `clear_sky`";
             self.error("spec::wrong-value", property.span, message);
             return None;
         };
-        Some([self.radiance(red)?, self.radiance(green)?, self.radiance(blue)?])
+        Some(SunColour::Fixed([self.radiance(red)?, self.radiance(green)?, self.radiance(blue)?]))
+    }
+
+    /// `clear_sky` or `clear_sky(TURBIDITY)`.
+    fn clear_sky(&mut self, value: &Expr) -> Option<SunColour> {
+        let ExprKind::Call { arguments, .. } = &value.kind else {
+            return Some(SunColour::ClearSky { turbidity: Distribution::Fixed(DEFAULT_TURBIDITY) });
+        };
+        let [CallArgument { name: None, weight: None, value: turbidity }] = arguments.as_slice() else {
+            self.wrong(value, "of the form `clear_sky` or `clear_sky(3)`");
+            return None;
+        };
+        let drawn = self.distribution(turbidity, Dimension::Plain)?;
+        self.within(&drawn, "the turbidity of a clear sky", turbidity, Dimension::Plain, TURBIDITY)?;
+        Some(SunColour::ClearSky { turbidity: drawn })
     }
 
     /// A share or a plain number from 0 to 100.
-    fn radiance(&mut self, value: &Expr) -> Option<f64> {
+    pub fn radiance(&mut self, value: &Expr) -> Option<f64> {
         let dimension = match &value.kind {
             ExprKind::Quantity { unit: Some(_), .. } => Dimension::Share,
             _ => Dimension::Plain,
@@ -138,55 +157,6 @@ impl Checker<'_> {
             return None;
         }
         Some(number)
-    }
-
-    pub fn effects(&mut self, block: &Block) -> Option<EffectsSpec> {
-        let (shadows, ambient) = (self.shadows(&block.properties), self.ambient(&block.properties));
-        Some(EffectsSpec {
-            shadows: shadows.ok()?.unwrap_or(ShadowsSpec::Off),
-            ambient: ambient.ok()?.unwrap_or(AmbientSpec::Off),
-        })
-    }
-
-    pub fn shadows(&mut self, properties: &[Property]) -> Result<Option<ShadowsSpec>, ()> {
-        let Some(property) = get(properties, "shadows") else { return Ok(None) };
-        let value = self.one(property).ok_or(())?;
-        Ok(Some(match self.word(value, &["off", "hard", "soft"], &[]).ok_or(())? {
-            "off" => ShadowsSpec::Off,
-            "hard" => ShadowsSpec::Hard,
-            _ => ShadowsSpec::Soft,
-        }))
-    }
-
-    pub fn ambient(&mut self, properties: &[Property]) -> Result<Option<AmbientSpec>, ()> {
-        let Some(property) = get(properties, "ambient") else { return Ok(None) };
-        let value = self.one(property).ok_or(())?;
-        let word = self.word(value, &["off", "constant", "sky"], &["sky_with_occlusion"]).ok_or(())?;
-        match (word, &value.kind) {
-            ("off", ExprKind::Word(_)) => Ok(Some(AmbientSpec::Off)),
-            ("sky", ExprKind::Word(_)) => Ok(Some(AmbientSpec::Sky)),
-            ("constant", ExprKind::Call { arguments, .. }) => {
-                let read: Vec<f64> = arguments.iter().map_while(|argument| self.radiance(&argument.value)).collect();
-                match (read.as_slice(), arguments.len()) {
-                    ([grey], 1) => Ok(Some(AmbientSpec::Constant([*grey; 3]))),
-                    ([red, green, blue], 3) => Ok(Some(AmbientSpec::Constant([*red, *green, *blue]))),
-                    (read, written) => {
-                        if read.len() == written {
-                            self.wrong(value, "of the form `constant(30%)` or `constant(20%, 25%, 30%)`");
-                        }
-                        Err(())
-                    }
-                }
-            }
-            ("constant", _) => {
-                self.wrong(value, "of the form `constant(30%)` or `constant(20%, 25%, 30%)`");
-                Err(())
-            }
-            _ => {
-                self.wrong(value, "one of `off`, `sky` and `constant(30%)`");
-                Err(())
-            }
-        }
     }
 }
 

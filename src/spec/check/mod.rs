@@ -3,6 +3,7 @@
 mod camera;
 mod change;
 mod dataset;
+mod effects;
 mod filters;
 mod light;
 mod pass;

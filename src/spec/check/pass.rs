@@ -24,8 +24,7 @@ impl Checker<'_> {
         let properties = &block.properties;
         let name = self.block_name(block);
         let show = self.required(properties, "show", block.span, "a pass");
-        let shadows = self.shadows(properties);
-        let ambient = self.ambient(properties);
+        let effects = self.effect_overrides(properties);
         let acquisition = match get(properties, "acquisition") {
             Some(property) => self.acquisition(property).map(Some),
             None => Some(None),
@@ -54,8 +53,7 @@ impl Checker<'_> {
             state: state?,
             mark: mark?,
             outputs: outputs?,
-            shadows: shadows.ok()?,
-            ambient: ambient.ok()?,
+            effects: effects?,
             acquisition: acquisition?,
         })
     }
@@ -122,23 +120,24 @@ impl Checker<'_> {
         Some(outputs)
     }
 
-    /// `acquisition second` draws a camera and a sun of its own; `redraw sun` keeps the view's camera.
+    /// `acquisition second` draws a camera, a sun and effects of its own; `redraw sun` keeps the view's camera.
     fn acquisition(&mut self, property: &Property) -> Option<AcquisitionSpec> {
         let value = self.one(property)?;
         let ExprKind::Word(name) = &value.kind else {
             self.wrong(value, "the name of an acquisition");
             return None;
         };
-        let (mut camera, mut sun) = (true, true);
+        let (mut camera, mut sun, mut effects) = (true, true, true);
         if let Some(redraw) = property.clause("redraw") {
-            (camera, sun) = (false, false);
+            (camera, sun, effects) = (false, false, false);
             for value in &redraw.values {
-                match self.word(value, &["camera", "sun"], &[])? {
+                match self.word(value, &["camera", "sun", "effects"], &[])? {
                     "camera" => camera = true,
-                    _ => sun = true,
+                    "sun" => sun = true,
+                    _ => effects = true,
                 }
             }
         }
-        Some(AcquisitionSpec { name: name.clone(), camera, sun })
+        Some(AcquisitionSpec { name: name.clone(), camera, sun, effects })
     }
 }

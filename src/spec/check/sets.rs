@@ -40,6 +40,7 @@ impl Checker<'_> {
         match word {
             "all" => return Some(SetSpec::All),
             "terrain" => return Some(SetSpec::Terrain),
+            "vegetation" => return Some(SetSpec::Vegetation),
             "changed" => return Some(SetSpec::Changed),
             "unchanged" => return Some(SetSpec::Not(Box::new(SetSpec::Changed))),
             "building_part" => {
@@ -53,7 +54,7 @@ impl Checker<'_> {
         }
         let change = changes.iter().position(|name| name == word);
         if change.is_none() {
-            let fixed = ["all", "terrain", "changed", "unchanged"];
+            let fixed = ["all", "terrain", "vegetation", "changed", "unchanged"];
             let classes = CLASSES.iter().map(|(name, _)| *name);
             let known = fixed.into_iter().chain(classes).chain(changes.iter().map(String::as_str));
             self.diagnostics.push(unknown_name("set of objects", word, value.span, known));

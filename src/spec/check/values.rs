@@ -188,19 +188,32 @@ impl Checker<'_> {
         let Some(property) = super::get(properties, key) else { return Ok(None) };
         let value = self.one(property).ok_or(())?;
         let distribution = self.distribution(value, dimension).ok_or(())?;
-        let (least, greatest) = distribution.bounds();
-        if least < low || greatest > high {
-            let unit = dimension.usual_unit();
-            let (low, high) = if dimension == Dimension::Share { (low * 100.0, high * 100.0) } else { (low, high) };
-            let message = if high.is_finite() {
-                format!("`{key}` lies between {low}{unit} and {high}{unit}, `{value}` does not")
-            } else {
-                format!("`{key}` is at least {low}{unit}, `{value}` can be less")
-            };
-            self.error("spec::out-of-range", value.span, message);
-            return Err(());
-        }
+        self.within(&distribution, &format!("`{key}`"), value, dimension, (low, high)).ok_or(())?;
         Ok(Some(distribution))
+    }
+
+    /// Reports what can be drawn outside `low..=high`.
+    pub fn within(
+        &mut self,
+        drawn: &Distribution,
+        what: &str,
+        value: &Expr,
+        dimension: Dimension,
+        (low, high): (f64, f64),
+    ) -> Option<()> {
+        let (least, greatest) = drawn.bounds();
+        if least >= low && greatest <= high {
+            return Some(());
+        }
+        let unit = dimension.usual_unit();
+        let (low, high) = if dimension == Dimension::Share { (low * 100.0, high * 100.0) } else { (low, high) };
+        let message = if high.is_finite() {
+            format!("{what} lies between {low}{unit} and {high}{unit}, `{value}` does not")
+        } else {
+            format!("{what} is at least {low}{unit}, `{value}` can be less")
+        };
+        self.error("spec::out-of-range", value.span, message);
+        None
     }
 
     /// A whole number in `low..=high`.
