@@ -2,6 +2,7 @@
 
 mod bad_input;
 mod compatibility;
+mod cost;
 mod coverage;
 mod diagnostics;
 mod golden;
