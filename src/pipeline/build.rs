@@ -9,6 +9,7 @@ use super::recipe::Recipe;
 use super::record::{asset_files, geometry_hash, report_records};
 use super::textures;
 use super::validation::{FeatureChecks, Validation};
+use super::vegetation;
 use crate::dataset::manifest::{ChangeRecord, ChangedFeature, InputFile, SceneRecord};
 use crate::dataset::reports::SceneReports;
 use crate::diagnostics::Diagnostics;
@@ -109,6 +110,7 @@ pub fn build_scene_within(
     // Lay the ground under them and put everything together.
     progress.begin("scene", None);
     let layers = ground_layers(&derived.features);
+    let obstacles = place.greenery.as_ref().map(|_| vegetation::obstacles(&place.features, &derived.features));
     let area = Polygon { outer: place.area.clone(), holes: Vec::new() };
     let ground = build_ground(&area, &place.terrain, terrain_tolerance_m, &layers)
         .map_err(|source| PipelineError::Ground { scene: spec.name.clone(), source })?;
@@ -117,7 +119,10 @@ pub fn build_scene_within(
     let textures = textures::load(&mut scene, &assets)?;
     let mut files = textures.files;
     files.extend(asset_files(&assets).map_err(|e| OutputError::new(&recipe.path, e))?);
-    let Place { frame, terrain, mut ledger, features, .. } = place;
+    let Place { frame, terrain, mut ledger, features, greenery, .. } = place;
+    if let (Some(greenery), Some(obstacles)) = (&greenery, &obstacles) {
+        vegetation::plant(&mut scene, greenery, obstacles, &terrain, spec.seed, &mut ledger);
+    }
     ledger.revise(features.iter().map(|f| f.id.to_string()).zip(derived.outcomes));
     ledger.merge(derived.ledger);
     if ground.without_height > 0 {

@@ -23,6 +23,7 @@ mod single;
 mod streets;
 mod textures;
 mod validation;
+mod vegetation;
 mod views;
 
 pub use build::{BuiltScene, Checks, build_scene};

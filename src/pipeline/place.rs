@@ -9,6 +9,7 @@ use super::progress::Progress;
 use super::recipe::Recipe;
 use crate::geodata::elevation;
 use crate::geodata::feature::Feature;
+use crate::geodata::greenery::{Greenery, greenery};
 use crate::geodata::ledger::Ledger;
 use crate::geodata::map::{Area, LonLatBox, extent, extract, read_map};
 use crate::geodata::projection::LocalFrame;
@@ -23,6 +24,8 @@ pub struct Place {
     /// Corners of the area in the plan, counter-clockwise.
     pub area: Ring,
     pub features: Vec<Feature>,
+    /// Only where the recipe asks for vegetation.
+    pub greenery: Option<Greenery>,
     pub terrain: Terrain,
     pub ledger: Ledger,
 }
@@ -49,6 +52,7 @@ pub fn place(recipe: &Recipe, scene: &SceneSpec, progress: &dyn Progress) -> Res
     let frame = LocalFrame::new((bounds.west + bounds.east) / 2.0, (bounds.south + bounds.north) / 2.0)?;
     let project = |lon: f64, lat: f64| frame.forward(lon, lat).unwrap_or(DVec2::NAN);
     let features = extract(&data, Some(&area), &project, &mut ledger);
+    let greenery = recipe.spec.wants_vegetation().then(|| greenery(&data, &features, &area, &project));
     let ring = area.ring(&project);
     drop(data);
     if features.is_empty() && ledger.entries.is_empty() {
@@ -59,7 +63,7 @@ pub fn place(recipe: &Recipe, scene: &SceneSpec, progress: &dyn Progress) -> Res
     progress.begin("elevation", None);
     let terrain = terrain(&resolve(&scene.elevations)?, frame, &ring, &mut ledger)?;
     progress.end(&format!("{} files", scene.elevations.len()));
-    Ok(Place { frame, area: ring, features, terrain, ledger })
+    Ok(Place { frame, area: ring, features, greenery, terrain, ledger })
 }
 
 /// The ground under the scene; voids are filled, and counted in the ledger.

@@ -197,3 +197,36 @@ fn sensor_record(sensor: &Sensor) -> Value {
         "near_infrared": infrared,
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plan::effects::{Haze, NirLight, Shadows};
+
+    #[test]
+    fn effects_are_recorded_where_there_are_any() {
+        let mut look = Look::plain(Shadows::Soft, Ambient::Constant([0.3; 3]));
+        assert_eq!(effects_record(&look), None);
+        let haze = Haze { extinction: [1e-4, 2e-4, 3e-4], scale_height: 900.0, base: -3.0, airlight: [0.3, 0.3, 0.4] };
+        look.haze = Some(haze);
+        let infrared = NirLight { sun: 0.9, zenith: 0.1, ground: 0.2, extinction: 5e-5, airlight: 0.2 };
+        look.sensor = Some(Sensor {
+            key: u64::MAX,
+            psf: 0.5,
+            exposure: 1.5,
+            read_noise: 0.01,
+            full_well: 9000.0,
+            depth: BitDepth::Sixteen,
+            bands: Bands::Nir(infrared),
+        });
+        let record = effects_record(&look).expect("there are effects");
+        assert_eq!(record["atmosphere"]["extinction"][2], 3e-4);
+        assert_eq!((&record["sensor"]["bands"], &record["sensor"]["depth"]), (&json!("nir"), &json!(16)));
+        assert_eq!(record["sensor"]["near_infrared"]["zenith"], 0.1);
+        // Keys are whole numbers of 64 bits, which text keeps.
+        assert!(record.to_string().contains("18446744073709551615"));
+        assert!(record.get("clouds").is_none() && record.get("ground").is_none() && record.get("ambient").is_none());
+        look.ambient = Ambient::Sky { zenith: [0.2; 3], ground: [0.1; 3], occluded: true };
+        assert_eq!(effects_record(&look).expect("there are effects")["ambient"], "sky_with_occlusion");
+    }
+}

@@ -434,6 +434,16 @@ pub struct DatasetSpec {
 }
 
 impl RenderSpec {
+    /// Whether any image of any dataset shows plants.
+    pub fn wants_vegetation(&self) -> bool {
+        let of_dataset = |dataset: &DatasetSpec| {
+            let passes = dataset.passes.iter().map(|&pass| &self.passes[pass]);
+            dataset.effects.vegetation && passes.len() > 0
+                || passes.into_iter().any(|pass| pass.effects.vegetation == Some(true))
+        };
+        self.datasets.iter().any(of_dataset)
+    }
+
     /// Every file that the recipe names, in the order of the recipe, repeats included.
     pub fn files(&self) -> Vec<&FileRef> {
         let scenes = self.scenes.iter().flat_map(|scene| {
