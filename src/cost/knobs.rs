@@ -106,13 +106,12 @@ pub fn knobs(subject: Subject) -> Vec<Knob> {
     if subject.shadows() {
         knobs.extend(shadow_knobs(subject));
     }
-    let texels = |n: u32| n.to_string();
     if subject.sky() {
         knobs.push(Knob {
             name: "sky_samples",
             metric: Metric::Light,
             about: "directions from which a partly hidden sky is seen",
-            values: numbers(&[4, 8, 16, 24, 32, 64, 128], texels, Change::SkySamples),
+            values: numbers(&[4, 8, 16, 24, 32, 64, 128], |n| n.to_string(), Change::SkySamples),
         });
     }
     if subject.fields() {
@@ -120,16 +119,38 @@ pub fn knobs(subject: Subject) -> Vec<Knob> {
             name: "field_map",
             metric: Metric::Light,
             about: "texels per side of the maps of clouds and of what lies on the ground",
-            values: numbers(&[128, 256, 512, 1024, 2048, 4096], texels, Change::FieldMap),
+            values: numbers(&[128, 256, 512, 1024, 2048, 4096], |n| n.to_string(), Change::FieldMap),
         });
     }
+    knobs.extend(drawing_knobs(subject));
+    knobs
+}
+
+/// Knobs of the renderer that recipes do not have.
+fn drawing_knobs(subject: Subject) -> Vec<Knob> {
+    let filters = [
+        ("nearest", TextureFilter::Nearest),
+        ("bilinear", TextureFilter::Bilinear),
+        ("trilinear", TextureFilter::Trilinear),
+        ("anisotropic 8", TextureFilter::Anisotropic),
+    ];
+    let roundings =
+        [("f32 about the scene's origin", Positions::AboutOrigin), ("f64 to the camera", Positions::AboutCamera)];
+    let mut knobs = vec![
+        Knob {
+            name: "positions",
+            metric: Metric::Label,
+            about: "where coordinates are rounded to 32 bits",
+            values: named(&roundings, Change::Positions),
+        },
+        Knob {
+            name: "tile",
+            metric: Metric::Label,
+            about: "samples per side of the pieces that an image is drawn in",
+            values: numbers(&[512, 1024, 2048, 4096], |n| n.to_string(), Change::Tile),
+        },
+    ];
     if subject.textures {
-        let filters = [
-            ("nearest", TextureFilter::Nearest),
-            ("bilinear", TextureFilter::Bilinear),
-            ("trilinear", TextureFilter::Trilinear),
-            ("anisotropic 8", TextureFilter::Anisotropic),
-        ];
         knobs.push(Knob {
             name: "texture filter",
             metric: Metric::Light,
@@ -137,20 +158,6 @@ pub fn knobs(subject: Subject) -> Vec<Knob> {
             values: named(&filters, Change::Texture),
         });
     }
-    let roundings =
-        [("f32 about the scene's origin", Positions::AboutOrigin), ("f64 to the camera", Positions::AboutCamera)];
-    knobs.push(Knob {
-        name: "positions",
-        metric: Metric::Label,
-        about: "where coordinates are rounded to 32 bits",
-        values: named(&roundings, Change::Positions),
-    });
-    knobs.push(Knob {
-        name: "tile",
-        metric: Metric::Label,
-        about: "samples per side of the pieces that an image is drawn in",
-        values: numbers(&[512, 1024, 2048, 4096], texels, Change::Tile),
-    });
     knobs
 }
 

@@ -204,7 +204,7 @@ fn panels(bench: &mut Bench, own: Quality) -> Result<Vec<Panel>, PipelineError> 
     let mut panels = Vec::new();
     for (images, (view, truth)) in drawn.iter().zip(bench.truths()) {
         let mut pictures = vec![
-            (Picture::light(images), "wgpu, the recipe’s own quality".to_owned()),
+            (Picture::light(images), "drawn with the recipe’s own quality".to_owned()),
             (Picture::light(&truth.images), format!("reference, {} samples a pixel", truth.samples)),
             (
                 Picture::difference(images, truth),

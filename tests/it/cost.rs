@@ -5,7 +5,7 @@ use serde_json::Value;
 
 use crate::workshop::{Workshop, has_adapter};
 
-/// A town with a view of 128 × 128 pixels; `quality` is the body of its block.
+/// A town with a view of 96 × 96 pixels; `quality` is the body of its block.
 fn recipe(quality: &str) -> String {
     format!(
         r#"
@@ -18,7 +18,7 @@ scene town {{
   rules "mansard:residential.cga" for building
   rules "mansard:street.cga"      for highway
 }}
-camera low  {{ size 128 x 128  gsd 0.8m  fov 30deg  off_nadir 12deg  azimuth 200deg }}
+camera low  {{ size 96 x 96  gsd 1m  fov 30deg  off_nadir 12deg  azimuth 200deg }}
 sun     {{ elevation 38deg  azimuth 230deg }}
 effects {{ shadows hard  ambient sky }}
 quality {{ {quality} }}
