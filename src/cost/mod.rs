@@ -13,3 +13,6 @@ pub mod report;
 pub mod sweep;
 pub mod window;
 pub mod work;
+
+#[cfg(test)]
+mod tests;
