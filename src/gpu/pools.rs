@@ -23,6 +23,7 @@ impl TargetPool {
     /// The target for `key`, of `size` samples: a tile of the planned texture.
     pub fn get(&mut self, gpu: &Gpu, key: TextureKey, size: (u32, u32)) -> Target {
         self.made.insert(key);
+        self.targets.retain(|other, target| *other != key || target.size == size);
         self.targets.entry(key).or_insert_with(|| create(gpu, key, size)).clone()
     }
 
