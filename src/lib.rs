@@ -14,11 +14,13 @@
 //! | Sensor | [`sensor`] | linear pixels | [`frame::Pixels`] |
 //! | Truth | [`reference`] | [`plan::demand::ViewDemand`] + `Scene` | [`frame::Frame`] and its standard error |
 //! | Render | [`gpu`] | `RenderPlan` + `Scene` | [`frame::Frame`] |
+//! | Cost | [`cost`] | demands + `Scene` + both renderers | errors, times, the cheapest settings of a budget |
 //! | Dataset | [`dataset`] | `Frame`s + labels | files |
 //!
 //! A module uses only what stands above it in this list; `tests/it/tidy.rs` holds us to it.
 
 pub mod cga;
+pub mod cost;
 pub mod dataset;
 pub mod diagnostics;
 pub mod frame;

@@ -26,6 +26,9 @@ pub struct Manifest {
     /// Semantic class names by the number in class images.
     pub classes: BTreeMap<u8, &'static str>,
     pub scenes: Vec<SceneRecord>,
+    /// Error budgets, one for each scene; absent where the recipe has none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub budgets: Vec<BudgetRecord>,
     pub views: Vec<ViewRecord>,
     /// Every other file of the dataset.
     pub files: Vec<WrittenFile>,
@@ -78,6 +81,36 @@ pub struct SceneRecord {
     pub changes: Vec<ChangeRecord>,
     pub reports: BTreeMap<String, ReportRecord>,
     pub ledger: Ledger,
+}
+
+/// What a budget promised in a scene, what was chosen for it, and what it came to.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct BudgetRecord {
+    pub scene: String,
+    pub chosen: ChosenRecord,
+    pub limits: Vec<LimitRecord>,
+}
+
+/// Knobs as recipes write them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct ChosenRecord {
+    pub antialiasing: u32,
+    pub shadow_map: u32,
+    pub shadow_samples: u32,
+    pub sky_samples: u32,
+    pub field_map: u32,
+}
+
+/// One promise: `error` and `shadow` are shares (of white; of shadow that is in its place), `edge` is in pixels,
+/// `height` in metres.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct LimitRecord {
+    pub of: &'static str,
+    pub promised: f64,
+    /// In the windows that the settings were chosen by.
+    pub calibrated: Option<f64>,
+    /// In other windows; `null` where there was nothing to measure.
+    pub achieved: Option<f64>,
 }
 
 /// Sums of one report key over all features, in the state *before*.

@@ -13,7 +13,7 @@ use super::pools::{Target, TargetPool};
 use super::readback::{Harvest, Picture, Readback};
 use super::tiles::{self, Tile, ViewUniform, light_planes, light_view, panel, panel_view, tile_planes, tile_size};
 use super::timing::{Recorder, Stopwatch};
-use super::upload::GpuScene;
+use super::upload::{GpuScene, Positions};
 use super::{GpuError, Renderer};
 use crate::frame::{Frame, Image};
 use crate::plan::ViewPlan;
@@ -21,8 +21,10 @@ use crate::plan::light::LightFrame;
 use crate::plan::pass::{DrawSet, Pass, PassKind, PipelineKey, Stage, Surface};
 use crate::plan::resource::ResourceId;
 
-pub fn render(renderer: &mut Renderer, view: &ViewPlan) -> Result<Frame, GpuError> {
-    let Renderer { gpu, pipelines, targets, scene, readback, max_tile, passes, triangles, drawn, stopwatch } = renderer;
+/// All of a view's images, or, unless `windows` is empty, those parts of them.
+pub fn render(renderer: &mut Renderer, view: &ViewPlan, windows: &[Tile]) -> Result<Frame, GpuError> {
+    let Renderer { gpu, pipelines, targets, scene, readback, max_tile, positions, passes, triangles, drawn, stopwatch } =
+        renderer;
     let counter = Cell::new(0);
     stopwatch.start_view();
     let scene =
@@ -33,10 +35,23 @@ pub fn render(renderer: &mut Renderer, view: &ViewPlan) -> Result<Frame, GpuErro
     check_sizes(gpu, view)?;
     targets.keep(view.resources.iter().map(|r| r.texture));
     let max_tile = (*max_tile).min(gpu.max_texture);
+    let positions = *positions;
     let task = format!("rendering view {}", view.name);
     let images = gpu.checked(&task, || {
-        let mut execution =
-            Execution { gpu, pipelines, targets, scene, readback, stopwatch, view, max_tile, drawn: &counter };
+        let drawn = &counter;
+        let mut execution = Execution {
+            gpu,
+            pipelines,
+            targets,
+            scene,
+            readback,
+            stopwatch,
+            view,
+            windows,
+            max_tile,
+            positions,
+            drawn,
+        };
         execution.run()
     })??;
     *passes += view.passes().count();
@@ -86,7 +101,9 @@ struct Execution<'a> {
     readback: &'a mut Readback,
     stopwatch: &'a mut Stopwatch,
     view: &'a ViewPlan,
+    windows: &'a [Tile],
     max_tile: u32,
+    positions: Positions,
     /// Triangles drawn.
     drawn: &'a Cell<u64>,
 }
@@ -101,7 +118,7 @@ impl Execution<'_> {
         }
         let names: BTreeMap<usize, &str> = products().map(|p| (p.index, p.pass.as_str())).collect();
 
-        self.scene.place(self.gpu, self.view.camera.origin());
+        self.scene.place(self.gpu, self.view.camera.origin(), self.positions);
         for stage in &self.view.stages {
             for pass in &stage.passes {
                 self.pipelines.prepare(self.gpu, &pass.pipelines);
@@ -138,12 +155,13 @@ impl Execution<'_> {
         let written = stage.passes.iter().flat_map(|pass| &pass.writes);
         let supersample = written.map(|id| self.view.resources[id.0].texture.supersample).max().unwrap_or(1);
         let image = (self.view.camera.width, self.view.camera.height);
+        let largest = |side: fn(&Tile) -> u32| self.windows.iter().map(side).max().unwrap_or(u32::MAX).max(1);
         let size = (
-            tile_size(image.0.max(1), supersample, self.max_tile),
-            tile_size(image.1.max(1), supersample, self.max_tile),
+            tile_size(image.0.max(1), supersample, self.max_tile).min(largest(|w| w.width)),
+            tile_size(image.1.max(1), supersample, self.max_tile).min(largest(|w| w.height)),
         );
         let all = Tile { x: 0, y: 0, width: image.0, height: image.1 };
-        let tiles = if stage.tiled { tiles::tiles(image, size) } else { vec![all] };
+        let tiles = if stage.tiled { tiles::within(tiles::tiles(image, size), self.windows) } else { vec![all] };
         for tile in tiles {
             let mut recorder = self.stopwatch.recorder(self.gpu);
             let targets = self.stage_targets(stage, size);
@@ -192,7 +210,8 @@ impl Execution<'_> {
                 shadow_map::encode(recorder, drawing, target(0));
             }),
             PassKind::ShadowBounds { light } => {
-                shadow_bounds::encode(recorder, gpu, pipelines, light, (&targets[&pass.reads[0]], target(0)));
+                let maps = (&targets[&pass.reads[0]], target(0), target(1));
+                shadow_bounds::encode(recorder, gpu, pipelines, light, maps);
             }
             PassKind::SkyMaps { draw, frames } => {
                 for (layer, light) in (0..).zip(frames.iter()) {

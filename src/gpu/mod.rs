@@ -31,6 +31,9 @@ use crate::plan::{Counts, RenderPlan, ViewPlan};
 use crate::scene::Scene;
 
 pub use device::Adapter;
+pub use pipelines::TextureFilter;
+pub use tiles::Tile;
+pub use upload::Positions;
 
 /// What can go wrong between the plan and the frame; none of it is the recipe's mistake.
 #[derive(Debug, thiserror::Error)]
@@ -62,6 +65,7 @@ pub struct Renderer {
     scene: Option<upload::GpuScene>,
     readback: readback::Readback,
     max_tile: u32,
+    positions: Positions,
     passes: usize,
     triangles: u64,
     drawn: u64,
@@ -75,6 +79,7 @@ impl Renderer {
         let pipelines = pipelines::Pipelines::new(&gpu);
         let (targets, readback) = (pools::TargetPool::default(), readback::Readback::default());
         let (max_tile, stopwatch) = (tiles::TILE_SAMPLES, timing::Stopwatch::default());
+        let positions = Positions::default();
         Ok(Renderer {
             gpu,
             pipelines,
@@ -82,6 +87,7 @@ impl Renderer {
             scene: None,
             readback,
             max_tile,
+            positions,
             passes: 0,
             triangles: 0,
             drawn: 0,
@@ -129,9 +135,28 @@ impl Renderer {
         Ok(())
     }
 
+    /// How textures are looked up from now on.
+    pub fn set_texture_filter(&mut self, filter: TextureFilter) {
+        self.pipelines.set_texture_filter(&self.gpu, filter);
+        if let Some(scene) = &mut self.scene {
+            scene.forget_textures();
+        }
+    }
+
+    /// How positions are rounded from now on.
+    pub fn set_positions(&mut self, positions: Positions) {
+        self.positions = positions;
+    }
+
     /// Runs the plan of one view over the uploaded scene.
     pub fn render(&mut self, view: &ViewPlan) -> Result<Frame, GpuError> {
-        execute::render(self, view)
+        execute::render(self, view, &[])
+    }
+
+    /// Draws these parts of a view's images, bit for bit as [`Renderer::render`] would; the rest stays blank. What is no
+    /// image, such as a shadow map, is drawn as a whole.
+    pub fn render_windows(&mut self, view: &ViewPlan, windows: &[Tile]) -> Result<Frame, GpuError> {
+        execute::render(self, view, windows)
     }
 
     /// What has been made so far: passes run (tiles of a pass count once) and the triangles handed to them, render

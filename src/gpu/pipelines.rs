@@ -16,7 +16,7 @@ pub struct Layouts {
     pub view: wgpu::BindGroupLayout,
     pub texture: wgpu::BindGroupLayout,
     pub first_bounds: wgpu::BindGroupLayout,
-    pub halved_bounds: wgpu::BindGroupLayout,
+    pub coarse_bounds: wgpu::BindGroupLayout,
     pub resolve: wgpu::BindGroupLayout,
     pub texture_sampler: wgpu::Sampler,
     pub gather_sampler: wgpu::Sampler,
@@ -70,6 +70,10 @@ impl Pipelines {
 
     pub fn get(&self, key: PipelineKey) -> &wgpu::RenderPipeline {
         self.pipelines.get(&key).expect("a pass uses only the pipelines it declares")
+    }
+
+    pub fn set_texture_filter(&mut self, gpu: &Gpu, filter: TextureFilter) {
+        self.layouts.texture_sampler = texture_sampler(gpu, filter);
     }
 
     /// Layout of the light of pipelines with these terms; `None` before any was made.
@@ -181,9 +185,9 @@ impl Layouts {
                 "first bounds",
                 &[(0, fragment, uniform), (1, fragment, texture(TextureSampleType::Depth))],
             ),
-            halved_bounds: group("halved bounds", &[(2, fragment, blocks)]),
+            coarse_bounds: group("coarse bounds", &[(2, fragment, blocks)]),
             resolve: group("resolve", &[(0, fragment, filterable), (1, fragment, filtering)]),
-            texture_sampler: texture_sampler(gpu),
+            texture_sampler: texture_sampler(gpu, TextureFilter::default()),
             gather_sampler: gpu.device.create_sampler(&wgpu::SamplerDescriptor::default()),
             linear_sampler: gpu.device.create_sampler(&wgpu::SamplerDescriptor {
                 mag_filter: wgpu::FilterMode::Linear,
@@ -194,15 +198,39 @@ impl Layouts {
     }
 }
 
-/// Trilinear; anisotropic on hardware, where it is nearly free.
-fn texture_sampler(gpu: &Gpu) -> wgpu::Sampler {
+/// How a texture is looked up.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum TextureFilter {
+    /// The nearest texel of the nearest level.
+    Nearest,
+    /// Four texels of the nearest level.
+    Bilinear,
+    /// Four texels of two levels.
+    Trilinear,
+    /// Trilinear; up to 8 places along the footprint on hardware, where that is nearly free.
+    #[default]
+    Usual,
+    /// Trilinear at up to 8 places along the footprint.
+    Anisotropic,
+}
+
+fn texture_sampler(gpu: &Gpu, filter: TextureFilter) -> wgpu::Sampler {
+    use wgpu::{FilterMode, MipmapFilterMode};
+    let smooth = filter != TextureFilter::Nearest;
+    let between = !matches!(filter, TextureFilter::Nearest | TextureFilter::Bilinear);
+    let places = match filter {
+        TextureFilter::Anisotropic => 8,
+        TextureFilter::Usual if !gpu.adapter.software => 8,
+        _ => 1,
+    };
+    let filter = if smooth { FilterMode::Linear } else { FilterMode::Nearest };
     gpu.device.create_sampler(&wgpu::SamplerDescriptor {
         address_mode_u: wgpu::AddressMode::Repeat,
         address_mode_v: wgpu::AddressMode::Repeat,
-        mag_filter: wgpu::FilterMode::Linear,
-        min_filter: wgpu::FilterMode::Linear,
-        mipmap_filter: wgpu::MipmapFilterMode::Linear,
-        anisotropy_clamp: if gpu.adapter.software { 1 } else { 8 },
+        mag_filter: filter,
+        min_filter: filter,
+        mipmap_filter: if between { MipmapFilterMode::Linear } else { MipmapFilterMode::Nearest },
+        anisotropy_clamp: places,
         ..Default::default()
     })
 }

@@ -22,6 +22,18 @@ pub struct Tile {
     pub height: u32,
 }
 
+impl Tile {
+    /// First column to the right of it.
+    pub fn right(&self) -> u32 {
+        self.x + self.width
+    }
+
+    /// First row below it.
+    pub fn bottom(&self) -> u32 {
+        self.y + self.height
+    }
+}
+
 /// Pixels per side of a tile: as few equal tiles as keep within `limit` samples.
 pub fn tile_size(image: u32, supersample: u32, limit: u32) -> u32 {
     let most = (limit / supersample).max(1);
@@ -40,6 +52,19 @@ pub fn tiles(image: (u32, u32), tile: (u32, u32)) -> Vec<Tile> {
         })
     };
     starts(image.1, tile.1).flat_map(row).collect()
+}
+
+/// What windows show of each tile; all of it if there are no windows.
+pub fn within(tiles: Vec<Tile>, windows: &[Tile]) -> Vec<Tile> {
+    if windows.is_empty() {
+        return tiles;
+    }
+    let common = |tile: &Tile, window: &Tile| {
+        let (x, y) = (tile.x.max(window.x), tile.y.max(window.y));
+        let (right, bottom) = (tile.right().min(window.right()), tile.bottom().min(window.bottom()));
+        (right > x && bottom > y).then(|| Tile { x, y, width: right - x, height: bottom - y })
+    };
+    tiles.iter().flat_map(|tile| windows.iter().filter_map(|window| common(tile, window))).collect()
 }
 
 /// The panel that holds `tile`: whole tiles of `size` pixels, at most `limit` samples per side.
@@ -190,6 +215,15 @@ mod tests {
             assert_eq!((panel.x % 60, panel.y % 50), (0, 0));
         }
         assert_eq!(panel((64, 64), Tile { x: 0, y: 0, width: 64, height: 64 }, (64, 64), 2, 8192).width, 64);
+    }
+
+    #[test]
+    fn windows_take_their_pixels_from_every_tile() {
+        let window = |x, y, width, height| Tile { x, y, width, height };
+        let parts = within(tiles((100, 70), (32, 32)), &[window(16, 16, 32, 32), window(90, 60, 30, 30)]);
+        let area: u32 = parts.iter().map(|t| t.width * t.height).sum();
+        assert_eq!((parts.len(), area), (5, 32 * 32 + 10 * 10));
+        assert_eq!(within(tiles((100, 70), (32, 32)), &[]).len(), 12);
     }
 
     #[test]

@@ -45,7 +45,17 @@ pub struct GpuScene {
     /// Made when a pass first samples them.
     texture_groups: Vec<Option<wgpu::BindGroup>>,
     world: Vec<DVec3>,
-    placed: Option<DVec3>,
+    placed: Option<(DVec3, Positions)>,
+}
+
+/// Where positions are rounded to 32-bit floats.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Positions {
+    /// As metres from the camera, subtracted in f64.
+    #[default]
+    AboutCamera,
+    /// As metres from the scene's origin, as renderers of one precision do it; kept to be measured.
+    AboutOrigin,
 }
 
 impl GpuScene {
@@ -108,13 +118,17 @@ impl GpuScene {
 
     /// Writes all positions as f32 metres from `origin`, subtracted in f64: equal points stay equal, so faces that meet
     /// in the scene meet on the image.
-    pub fn place(&mut self, gpu: &Gpu, origin: DVec3) {
-        if self.placed == Some(origin) {
+    pub fn place(&mut self, gpu: &Gpu, origin: DVec3, positions: Positions) {
+        if self.placed == Some((origin, positions)) {
             return;
         }
-        let relative: Vec<[f32; 3]> = self.world.iter().map(|&p| (p - origin).as_vec3().to_array()).collect();
+        let rounded = |&p: &DVec3| match positions {
+            Positions::AboutCamera => (p - origin).as_vec3().to_array(),
+            Positions::AboutOrigin => (p.as_vec3() - origin.as_vec3()).to_array(),
+        };
+        let relative: Vec<[f32; 3]> = self.world.iter().map(rounded).collect();
         gpu.queue.write_buffer(&self.positions, 0, bytemuck::cast_slice(&relative));
-        self.placed = Some(origin);
+        self.placed = Some((origin, positions));
     }
 
     /// How many attributes are on the device.
@@ -145,6 +159,11 @@ impl GpuScene {
                 self.texture_groups[number] = Some(gpu.device.create_bind_group(&descriptor));
             }
         }
+    }
+
+    /// The bind groups of textures are made anew when they are next sampled.
+    pub fn forget_textures(&mut self) {
+        self.texture_groups.iter_mut().for_each(|group| *group = None);
     }
 
     pub fn texture_group(&self, number: usize) -> &wgpu::BindGroup {

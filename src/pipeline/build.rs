@@ -56,6 +56,37 @@ pub fn build_scene(
     checks: Checks,
     progress: &dyn Progress,
 ) -> Result<BuiltScene, PipelineError> {
+    let promised = height_budget(recipe, index);
+    let Some(promised_m) = promised else {
+        return build_scene_within(recipe, index, TERRAIN_TOLERANCE_M, checks, progress);
+    };
+    // The tolerance is aimed at; along borders that are split later a finer one may be needed to keep it.
+    let mut best_m = f64::INFINITY;
+    for share in [1.0, 0.5, 0.25, 0.125] {
+        let built = build_scene_within(recipe, index, promised_m * share, checks, progress)?;
+        if built.record.terrain_error_m <= promised_m {
+            return Ok(built);
+        }
+        best_m = best_m.min(built.record.terrain_error_m);
+    }
+    Err(PipelineError::HeightBudget { scene: recipe.spec.scenes[index].name.clone(), promised_m, best_m })
+}
+
+/// The least height that datasets of a scene promise of its ground.
+fn height_budget(recipe: &Recipe, scene: usize) -> Option<f64> {
+    let of_scene = recipe.spec.datasets.iter().filter(|dataset| dataset.views.iter().any(|view| view.scene == scene));
+    of_scene.filter_map(|dataset| dataset.quality.budget?.height).reduce(f64::min)
+}
+
+/// Builds a scene whose ground keeps within this vertical distance of the elevation data, metres, where its posts allow
+/// it.
+pub fn build_scene_within(
+    recipe: &Recipe,
+    index: usize,
+    terrain_tolerance_m: f64,
+    checks: Checks,
+    progress: &dyn Progress,
+) -> Result<BuiltScene, PipelineError> {
     let spec = &recipe.spec.scenes[index];
 
     // Read the map and the elevation.
@@ -81,7 +112,7 @@ pub fn build_scene(
     let layers = ground_layers(&derived.features);
     let sites = place.greenery.as_ref().map(|_| vegetation::sites(&place.features, &derived.features));
     let area = Polygon { outer: place.area.clone(), holes: Vec::new() };
-    let ground = build_ground(&area, &place.terrain, TERRAIN_TOLERANCE_M, &layers)
+    let ground = build_ground(&area, &place.terrain, terrain_tolerance_m, &layers)
         .map_err(|source| PipelineError::Ground { scene: spec.name.clone(), source })?;
     let changed = change_records(recipe, &derived.features, &drawn);
     let mut scene = assemble(derived.features, &ground);

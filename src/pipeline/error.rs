@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use crate::cost::bench::CostError;
 use crate::dataset::DatasetError;
 use crate::diagnostics::Diagnostics;
 use crate::geodata::elevation::ElevationError;
@@ -46,12 +47,29 @@ pub enum PipelineError {
     Gpu(#[from] GpuError),
     #[error(transparent)]
     Reference(#[from] ReferenceError),
+    #[error(
+        "no settings keep {promised} in scene `{scene}` of dataset `{dataset}`: the best there is has {best} ({settings})"
+    )]
+    Budget { promised: String, dataset: String, scene: String, best: String, settings: String },
+    #[error("the ground of scene `{scene}` cannot keep height {promised_m} m: the best there is has {best_m:.3} m")]
+    HeightBudget { scene: String, promised_m: f64, best_m: f64 },
+    #[error("no view of the recipe has a colour image, whose accuracy could cost something")]
+    NoColor,
     #[error("the recipe has no dataset; `mansard build` writes the geometry alone")]
     NoDataset,
     #[error("no object of the map lies in the area of scene `{0}`")]
     NothingInArea(String),
     #[error("no view of the recipe is called {0}; `mansard plan` lists them")]
     NoSuchView(String),
+}
+
+impl From<CostError> for PipelineError {
+    fn from(error: CostError) -> Self {
+        match error {
+            CostError::Gpu(error) => error.into(),
+            CostError::Reference(error) => error.into(),
+        }
+    }
 }
 
 impl PipelineError {

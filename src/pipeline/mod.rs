@@ -4,7 +4,9 @@
 //! datasets ([`render_dataset`]).
 
 mod backend;
+mod budget;
 mod build;
+mod cost;
 mod derivation;
 mod error;
 mod lot;
@@ -27,6 +29,7 @@ mod views;
 
 pub use backend::BackendChoice;
 pub use build::{BuiltScene, Checks, build_scene};
+pub use cost::{CostOptions, CostSummary, measure_cost};
 pub use error::PipelineError;
 pub use portrait::portrait;
 pub use progress::{Progress, Silent};

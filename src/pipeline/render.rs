@@ -6,13 +6,14 @@ use std::path::{Path, PathBuf};
 use std::sync::mpsc::sync_channel;
 
 use super::backend::{Backend, BackendChoice, Drawn};
+use super::budget::{Settled, settle};
 use super::build::{BuiltScene, Checks, build_scene};
 use super::error::PipelineError;
 use super::progress::Progress;
 use super::recipe::Recipe;
 use super::record::{acquisition_record, inputs};
 use super::views::{SceneViews, scene_views};
-use crate::dataset::manifest::{Generator, Manifest, ViewRecord};
+use crate::dataset::manifest::{BudgetRecord, Generator, Manifest, ViewRecord};
 use crate::dataset::reports::{self, SceneReports};
 use crate::dataset::writer::{WrittenFile, write_file};
 use crate::dataset::{DatasetError, image_path, is_levir_label, write_image};
@@ -79,12 +80,18 @@ pub fn render_dataset(
     let mut backend = Backend::open(options.backend, options.samples, progress)?;
     for dataset in &recipe.spec.datasets {
         let folder = folder(dataset);
-        let mut records = Vec::new();
+        let (mut records, mut budgets) = (Vec::new(), Vec::new());
         for (index, scene) in built.iter().enumerate() {
             let views = scene_views(recipe, dataset, index, scene, &|name| is_wanted(name, &options.views));
             if views.drawn.is_empty() {
                 continue;
             }
+            let settled = settle_for(&mut backend, recipe, dataset, (index, scene), progress)?;
+            let views = match &settled.record {
+                Some(_) => scene_views(recipe, &settled.dataset, index, scene, &|name| is_wanted(name, &options.views)),
+                None => views,
+            };
+            budgets.extend(settled.record);
             backend.begin(&views, progress);
             backend.upload(&scene.scene, &views.plan)?;
             records.extend(render_views(&mut backend, dataset, scene, &views, &folder, progress)?);
@@ -95,13 +102,34 @@ pub fn render_dataset(
         // Scenes lie beside the folders of several datasets.
         let from_here = |f: &WrittenFile| WrittenFile { path: format!("../{}", f.path), sha256: f.sha256.clone() };
         let files = if several { scene_files.iter().map(from_here).collect() } else { scene_files.clone() };
-        let manifest = manifest(recipe, dataset, sources, &backend, &built, records, files)?;
+        let manifest = manifest(recipe, dataset, sources, &backend, &built, (records, budgets), files)?;
         write_file(&folder, Path::new("manifest.json"), &manifest.to_bytes())?;
         let prefix = if several { format!("{}/", dataset.name) } else { String::new() };
         summary.other_files.push(format!("{prefix}manifest.json"));
     }
     summary.other_files.extend(scene_files.into_iter().map(|f| f.path));
     Ok(summary)
+}
+
+/// Budgets are about the GPU's approximations; the reference has none of its knobs, and tells its noise.
+fn settle_for(
+    backend: &mut Backend,
+    recipe: &Recipe,
+    dataset: &DatasetSpec,
+    (index, scene): (usize, &BuiltScene),
+    progress: &dyn Progress,
+) -> Result<Settled, PipelineError> {
+    match backend {
+        Backend::Gpu(renderer) => settle(recipe, dataset, index, scene, Some(renderer), progress),
+        Backend::Reference { .. } => {
+            if dataset.quality.budget.is_some() {
+                progress.warn(
+                    "the reference renderer draws: the budget chooses nothing, the manifest says the images' noise",
+                );
+            }
+            Ok(Settled { dataset: dataset.clone(), record: None })
+        }
+    }
 }
 
 /// `reports.csv` and `reports.json` of all scenes, if any rule reports.
@@ -216,7 +244,7 @@ fn manifest(
     sources: &SourceMap,
     backend: &Backend,
     built: &[BuiltScene],
-    views: Vec<ViewRecord>,
+    (views, budgets): (Vec<ViewRecord>, Vec<BudgetRecord>),
     files: Vec<WrittenFile>,
 ) -> Result<Manifest, PipelineError> {
     Ok(Manifest {
@@ -229,6 +257,7 @@ fn manifest(
         renderer: backend.info(),
         classes: SceneClass::ALL.iter().map(|class| (*class as u8, class.name())).collect(),
         scenes: built.iter().map(|b| b.record.clone()).collect(),
+        budgets,
         views,
         files,
     })

@@ -4,10 +4,12 @@
 use glam::{DVec2, DVec3};
 use serde_json::{Value, json};
 
+use super::budget::{self, settle};
 use super::build::{BuiltScene, Checks, build_scene};
 use super::error::PipelineError;
 use super::progress::Progress;
 use super::recipe::Recipe;
+use crate::dataset::manifest::BudgetRecord;
 use crate::plan::demand::OutputDemand;
 use crate::plan::effects::{Ambient, Bands, BitDepth, Look};
 use crate::plan::view::{DrawnView, SceneSummary, views};
@@ -43,6 +45,8 @@ pub struct PlannedScene {
     pub scene: String,
     /// Lines on what was derived and what was not.
     pub derivation: Vec<String>,
+    /// What an error budget came to.
+    pub budget: Option<BudgetRecord>,
     /// Lines on what lights and takes an image besides sun and ambient light.
     pub effects: Vec<String>,
     pub plan: RenderPlan,
@@ -59,11 +63,13 @@ pub fn plan_views(recipe: &Recipe, progress: &dyn Progress) -> Result<PlannedRec
     for index in 0..recipe.spec.scenes.len() {
         let built = build_scene(recipe, index, Checks::Off, progress)?;
         for dataset in &recipe.spec.datasets {
-            let views = scene_views(recipe, dataset, index, &built, &|_| true);
+            let settled = settle(recipe, dataset, index, &built, None, progress)?;
+            let views = scene_views(recipe, &settled.dataset, index, &built, &|_| true);
             scenes.push(PlannedScene {
                 dataset: dataset.name.clone(),
                 scene: built.record.name.clone(),
                 derivation: derivation(&built),
+                budget: settled.record,
                 effects: views.drawn.iter().flat_map(effects).collect(),
                 plan: views.plan,
             });
@@ -138,7 +144,9 @@ fn derivation(built: &BuiltScene) -> Vec<String> {
 impl PlannedRecipe {
     pub fn text(&self) -> String {
         let scene = |s: &PlannedScene| {
-            let derivation: String = s.derivation.iter().chain(&s.effects).map(|line| format!("  {line}\n")).collect();
+            let budget = s.budget.as_ref().map(budget::lines).unwrap_or_default();
+            let lines = s.derivation.iter().chain(&s.effects).chain(&budget);
+            let derivation: String = lines.map(|line| format!("  {line}\n")).collect();
             format!("dataset {}, scene {}\n{derivation}{}", s.dataset, s.scene, dump::text(&s.plan))
         };
         self.scenes.iter().map(scene).collect()
@@ -146,13 +154,17 @@ impl PlannedRecipe {
 
     pub fn json(&self) -> Value {
         let scene = |s: &PlannedScene| {
-            json!({
+            let mut value = json!({
                 "dataset": s.dataset,
                 "scene": s.scene,
                 "derivation": s.derivation,
                 "effects": s.effects,
                 "plan": dump::json(&s.plan),
-            })
+            });
+            if let Some(budget) = &s.budget {
+                value["budget"] = json!(budget);
+            }
+            value
         };
         json!({ "datasets": self.scenes.iter().map(scene).collect::<Vec<_>>() })
     }

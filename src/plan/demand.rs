@@ -2,6 +2,8 @@
 
 use glam::DVec3;
 
+use crate::spec::render_spec::QualitySpec;
+
 pub use super::effects::{Ambient, Look, Shadows};
 
 /// How space is projected onto the image. Pixel (i, j) covers [i, i+1) × [j, j+1), j downwards, centre at +0.5.
@@ -118,6 +120,13 @@ pub struct Quality {
     pub sky_samples: u32,
     /// Texels per side of the maps of clouds and of the state of the ground.
     pub field_map: u32,
+}
+
+impl From<&QualitySpec> for Quality {
+    fn from(spec: &QualitySpec) -> Quality {
+        let QualitySpec { supersample, shadow_map, shadow_samples, sky_samples, field_map, budget: _ } = *spec;
+        Quality { supersample, shadow_map, shadow_samples, sky_samples, field_map }
+    }
 }
 
 /// One view with everything drawn.

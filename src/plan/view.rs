@@ -145,13 +145,7 @@ fn drawn_view(
             name: view.name.clone(),
             camera,
             sun: lit.then_some(light.sun),
-            quality: Quality {
-                supersample: dataset.quality.supersample,
-                shadow_map: dataset.quality.shadow_map,
-                shadow_samples: dataset.quality.shadow_samples,
-                sky_samples: dataset.quality.sky_samples,
-                field_map: dataset.quality.field_map,
-            },
+            quality: Quality::from(&dataset.quality),
             outputs,
         });
     }

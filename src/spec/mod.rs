@@ -18,6 +18,8 @@ pub mod render_spec;
 pub mod schema;
 mod units;
 
+pub use check::PRESETS;
+
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::source::{Access, SourceFile, SourceMap, Span};
 use inputs::Unbound;

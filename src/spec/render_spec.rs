@@ -263,7 +263,7 @@ pub enum SunPosition {
     Arc { declination: Distribution, tilt: Distribution, turn: Distribution },
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct QualitySpec {
     /// Samples per pixel side.
     pub supersample: u32,
@@ -275,6 +275,32 @@ pub struct QualitySpec {
     pub sky_samples: u32,
     /// Texels per side of the maps of clouds and of the state of the ground.
     pub field_map: u32,
+    /// Errors to keep: the knobs that the recipe does not give are then chosen by measuring.
+    pub budget: Option<BudgetSpec>,
+}
+
+/// Greatest errors that images may have, and what is fixed all the same.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct BudgetSpec {
+    /// Root mean square error of linear light, of white.
+    pub error: Option<f64>,
+    /// Root mean square displacement of edges, pixels.
+    pub edge: Option<f64>,
+    /// Height of the ground mesh beside the elevation data, metres.
+    pub height: Option<f64>,
+    /// Least share of the true shadow, intersection over union.
+    pub shadow: Option<f64>,
+    pub fixed: FixedKnobs,
+}
+
+/// Knobs that the recipe gives beside a budget.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct FixedKnobs {
+    pub supersample: bool,
+    pub shadow_map: bool,
+    pub shadow_samples: bool,
+    pub sky_samples: bool,
+    pub field_map: bool,
 }
 
 /// A set of objects.

@@ -137,7 +137,10 @@ pub const BLOCKS: &[BlockShape] = &[
             key("shadow_samples"),
             key("sky_samples"),
             key("field_map"),
-            key("error").later(),
+            key("error"),
+            key("edge"),
+            key("height"),
+            key("shadow"),
         ],
     },
     BlockShape {

@@ -286,7 +286,6 @@ fn every_part_of_the_language_that_is_not_evaluated_says_so() {
         "camera d { clip near 10m far 5km }",
         "sun { time 18:30+02:00 }",
         "sun { place 38.4, -122.7 }",
-        "quality { error 1% }",
         "pass p { show all as normal }",
         "pass p { show building[house] }",
         "change x { of building\n within bbox 1, 2, 3, 4\n effect built }",

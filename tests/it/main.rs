@@ -3,6 +3,7 @@
 mod backend;
 mod bad_input;
 mod compatibility;
+mod cost;
 mod coverage;
 mod demand;
 mod determinism;

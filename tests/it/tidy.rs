@@ -20,6 +20,7 @@ const ORDER: &[&str] = &[
     "sensor",
     "reference",
     "gpu",
+    "cost",
     "dataset",
     "pipeline",
 ];

@@ -98,6 +98,19 @@ pub enum Command {
         #[command(flatten)]
         work: WorkOptions,
     },
+    /// Measure what accuracy costs in time: every knob of a recipe's own scene against the reference renderer
+    Cost {
+        recipe: PathBuf,
+        /// Folder of cost.csv, the plots and cost.html, made if it is missing
+        #[arg(short, long, value_name = "DIR")]
+        output: PathBuf,
+        #[command(flatten)]
+        measure: CostOptions,
+        #[command(flatten)]
+        options: RecipeOptions,
+        #[command(flatten)]
+        work: WorkOptions,
+    },
     /// Look into a phase
     Dump {
         #[arg(value_enum)]
@@ -129,6 +142,25 @@ pub struct RecipeOptions {
     /// One more folder tree that the recipe may read from
     #[arg(long, value_name = "DIR")]
     pub allow: Vec<PathBuf>,
+}
+
+#[derive(Clone, Debug, clap::Args)]
+pub struct CostOptions {
+    /// The view to measure, by name; the first one with a colour image otherwise
+    #[arg(long, value_name = "VIEW")]
+    pub view: Option<String>,
+    /// Runs that each time is the median of
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u32).range(1..=1000))]
+    pub repeats: u32,
+    /// Windows of the view that are compared with the reference
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u32).range(1..=64))]
+    pub windows: u32,
+    /// Pixels per side of a window
+    #[arg(long, value_name = "PIXELS", default_value_t = 256, value_parser = clap::value_parser!(u32).range(8..=2048))]
+    pub side: u32,
+    /// Mean standard error of the reference at which it stops, percent of white
+    #[arg(long, value_name = "PERCENT", default_value_t = 0.15)]
+    pub noise: f64,
 }
 
 #[derive(Clone, Debug, Default, clap::Args)]

@@ -4,6 +4,7 @@ mod args;
 mod build;
 mod check;
 mod compatibility;
+mod cost;
 mod derive;
 mod dump;
 mod explain;
@@ -52,6 +53,9 @@ fn main() -> ExitCode {
             render::run(&recipe, &output, &views, reports.as_ref(), &backend, &options, &work, &reporter)
         }
         Command::Plan { recipe, format, options, work } => plan::run(&recipe, format, &options, &work, &reporter),
+        Command::Cost { recipe, output, measure, options, work } => {
+            cost::run(&recipe, &output, &measure, &options, &work, &reporter)
+        }
         Command::Dump { phase, file } => dump::run(phase, &file, args.quiet),
         Command::Town { seed, buildings, output, name } => town::run(seed, buildings, &output, &name, &reporter),
     };

@@ -156,7 +156,7 @@ fn edges_through_pixel_centres_differ_there_alone() {
 
 #[test]
 fn masked_materials_have_the_holes_of_their_own_cut_off() {
-    let renderer = crate::gpu::tests::renderer();
+    let mut renderer = crate::gpu::tests::renderer();
     // Quarters of alpha 51, 102, 153 and 255 side by side, each 4 m wide.
     let alphas = [51, 102, 153, 255];
     let picture = image::RgbaImage::from_fn(16, 16, |x, _| image::Rgba([200, 200, 200, alphas[x as usize / 4]]));
@@ -164,7 +164,6 @@ fn masked_materials_have_the_holes_of_their_own_cut_off() {
         let colormap = Some(Arc::from("fence"));
         Arc::new(Material { colormap, opacity, opacity_mode, opacity_cutoff, ..Material::default() })
     };
-    let mut renderer = renderer;
     for (mode, opacity, cutoff, there) in [
         (OpacityMode::Mask, 1.0, 0.3, [false, true, true, true]),
         (OpacityMode::Mask, 1.0, 0.8, [false, false, false, true]),

@@ -12,6 +12,8 @@ mod scene;
 mod sets;
 mod values;
 
+pub use quality::PRESETS;
+
 use super::ast::{Block, Property};
 use super::inherit::unknown_name;
 use super::read::Folders;

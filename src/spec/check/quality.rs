@@ -1,16 +1,26 @@
-//! In: a `quality` block. Out: explicit knobs.
+//! In: a `quality` block. Out: explicit knobs, and the errors to keep where a budget is to choose them.
 
 use super::{Checker, get};
-use crate::spec::ast::Block;
-use crate::spec::render_spec::QualitySpec;
+use crate::spec::ast::{Block, Property};
+use crate::spec::render_spec::{BudgetSpec, FixedKnobs, QualitySpec};
 use crate::spec::units::Dimension;
 
 /// Named sets of knobs.
-const PRESETS: [(&str, QualitySpec); 3] = [
-    ("draft", QualitySpec { supersample: 1, shadow_map: 2048, shadow_samples: 1, sky_samples: 8, field_map: 512 }),
-    ("standard", QualitySpec { supersample: 2, shadow_map: 4096, shadow_samples: 4, sky_samples: 24, field_map: 1024 }),
-    ("high", QualitySpec { supersample: 4, shadow_map: 8192, shadow_samples: 8, sky_samples: 64, field_map: 2048 }),
+pub const PRESETS: [(&str, QualitySpec); 3] = [
+    ("draft", knobs(1, 2048, 1, 8, 512)),
+    ("standard", knobs(2, 4096, 4, 24, 1024)),
+    ("high", knobs(4, 8192, 8, 64, 2048)),
 ];
+
+const fn knobs(
+    supersample: u32,
+    shadow_map: u32,
+    shadow_samples: u32,
+    sky_samples: u32,
+    field_map: u32,
+) -> QualitySpec {
+    QualitySpec { supersample, shadow_map, shadow_samples, sky_samples, field_map, budget: None }
+}
 
 /// What a recipe without a `quality` block gets.
 pub const STANDARD: QualitySpec = PRESETS[1].1;
@@ -43,6 +53,7 @@ impl Checker<'_> {
             Some(samples) => Some(self.per_side(samples, block)?),
             None => None,
         };
+        let budget = self.budget(properties);
         let preset = preset?;
         Some(QualitySpec {
             supersample: supersample.unwrap_or(preset.supersample),
@@ -50,7 +61,57 @@ impl Checker<'_> {
             shadow_samples: shadow_samples?.unwrap_or(preset.shadow_samples),
             sky_samples: sky_samples?.unwrap_or(preset.sky_samples),
             field_map: field_map?.unwrap_or(preset.field_map),
+            budget: budget?,
         })
+    }
+
+    /// The errors to keep; `Some(None)` where none is given.
+    fn budget(&mut self, properties: &[Property]) -> Option<Option<BudgetSpec>> {
+        let error = self.limit(properties, "error", Dimension::Share, (1e-4, 0.5));
+        let edge = self.limit(properties, "edge", Dimension::Pixels, (1e-3, 1.0));
+        let height = self.limit(properties, "height", Dimension::Length, (1e-3, 1000.0));
+        let shadow = self.limit(properties, "shadow", Dimension::Share, (0.01, 0.9999));
+        let (error, edge, height, shadow) = (error?, edge?, height?, shadow?);
+        let Some(first) = ["error", "edge", "height", "shadow"].into_iter().find_map(|key| get(properties, key)) else {
+            return Some(None);
+        };
+        if let Some(preset) = get(properties, "preset") {
+            let message = format!("`preset` fixes what the budget `{}` is to choose", first.key.text);
+            let help = "leave one of the two out; single knobs such as `shadow_map 8192` may stand beside a budget";
+            self.error_with_help("spec::over-determined", preset.span, message, help);
+            return None;
+        }
+        let given = |key: &str| get(properties, key).is_some();
+        let fixed = FixedKnobs {
+            supersample: given("antialiasing"),
+            shadow_map: given("shadow_map"),
+            shadow_samples: given("shadow_samples"),
+            sky_samples: given("sky_samples"),
+            field_map: given("field_map"),
+        };
+        Some(Some(BudgetSpec { error, edge, height, shadow, fixed }))
+    }
+
+    /// One number between two others; `Some(None)` where the property is not given.
+    fn limit(
+        &mut self,
+        properties: &[Property],
+        key: &str,
+        dimension: Dimension,
+        (low, high): (f64, f64),
+    ) -> Option<Option<f64>> {
+        let Some(property) = get(properties, key) else { return Some(None) };
+        let value = self.one(property)?;
+        let number = self.quantity(value, dimension)?;
+        if !(low..=high).contains(&number) {
+            let unit = dimension.usual_unit();
+            let scale = if dimension == Dimension::Share { 100.0 } else { 1.0 };
+            let (low, high) = (low * scale, high * scale);
+            let message = format!("`{key}` lies between {low}{unit} and {high}{unit}, `{value}` does not");
+            self.error("spec::out-of-range", value.span, message);
+            return None;
+        }
+        Some(Some(number))
     }
 
     /// Samples of a pixel lie on a square grid.
