@@ -16,7 +16,7 @@ struct Disc {
     turns: array<vec4<f32>, 128>,
 };
 
-@group(1) @binding(5) var<uniform> disc: Disc;
+@group(1) @binding(5) var<storage, read> disc: Disc;
 // Greatest and least height of the points in each block of the map, and in blocks of blocks.
 @group(1) @binding(6) var bounds_map: texture_2d<f32>;
 @group(1) @binding(18) var coarse_map: texture_2d<f32>;
