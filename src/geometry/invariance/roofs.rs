@@ -120,9 +120,9 @@ fn is_undecided(number: usize, p: &Polygon, choice: &Choice, motion: &Motion) ->
     // A rectangle and its first edge look the same in a mirror; a saltbox does not.
     let is_saltbox = number >= 17 && RoofShape::ALL[number - 17] == RoofShape::Saltbox;
     let mirrored = is_saltbox && motion.mirrors() && !matches!(choice.facing, Facing::Downhill(_));
-    // On a triangle the index is that of a vertex.
-    let is_vertex = number == 5 && n == 3 && motion.mirrors();
-    mirrored || is_vertex || (number >= 17 && turns) || (n == 3 && lengths_tie)
+    // The opposite of an edge is counted along the ring; of an odd number of edges none lies opposite.
+    let is_uneven = number == 5 && n % 2 == 1 && motion.mirrors();
+    mirrored || is_uneven || (number >= 17 && turns) || (n == 3 && lengths_tie)
 }
 
 fn complaint(number: usize, p: &Polygon, choice: &Choice, motion: &Motion, share: f64) -> Option<String> {
