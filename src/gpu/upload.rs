@@ -1,6 +1,7 @@
 //! Upload: the scene's meshes as vertex buffers, its materials and textures; each object once.
 //!
-//! Other attributes go to the device once, when a pass first reads them; positions are written anew for each camera, about its origin (see [`GpuScene::place`]).
+//! Other attributes go to the device once, when a pass first reads them; positions are written anew for each camera, about
+//! its origin (see [`GpuScene::place`]).
 
 use std::borrow::Cow;
 use std::collections::BTreeSet;
