@@ -26,6 +26,8 @@ const BLOCK: f32 = 8.0;
 const LEVELS: u32 = 6u;
 // Casters nearer than this share of the fade's depth leave all light.
 const CONTACT: f32 = 0.5;
+// Texels: the disc's image is no wider than the blending between texels.
+const NARROW: f32 = 0.585;
 
 fn block(at: vec2<i32>, level: u32, side: i32) -> vec2<f32> {
     let size = side >> level;
@@ -81,9 +83,13 @@ fn lit_share(corner: Corner) -> f32 {
     let slope = corner.slope;
     let contact = CONTACT * shadow.range / shadow.fade;
     var reach = (disc.top - corner.height) / disc.climb;
-    var bounds = vec2<f32>(0.0);
+    var bounds = vec2<f32>(disc.top, -1e9);
     for (var round = 0; round < 2; round++) {
-        bounds = height_bounds(at.xy, disc.spread * reach);
+        let radius = disc.spread * reach;
+        if max(radius.x, radius.y) < NARROW {
+            return open_share(at.xy, at, slope);
+        }
+        bounds = height_bounds(at.xy, radius);
         reach = min(reach, (bounds.x - corner.height) / disc.climb);
         if reach <= contact {
             return 1.0;
@@ -95,7 +101,7 @@ fn lit_share(corner: Corner) -> f32 {
     if bounds.y - corner.height > dot(rise, radius + 1.5) + contact * disc.climb {
         return 0.0;
     }
-    if max(radius.x, radius.y) < 0.1 {
+    if max(radius.x, radius.y) < NARROW {
         return open_share(at.xy, at, slope);
     }
     var found = vec2<f32>(0.0);
@@ -109,7 +115,7 @@ fn lit_share(corner: Corner) -> f32 {
     // Blending between texels is itself as wide as a disc of radius 1/√3.
     let image = disc.spread * (found.x / found.y);
     let width = sqrt(max(image * image - 1.0 / 3.0, vec2<f32>(0.0)));
-    if max(width.x, width.y) < 0.1 {
+    if max(image.x, image.y) < NARROW {
         return open_share(at.xy, at, slope);
     }
     let taps = min(disc.samples, u32(4.0 + 3.0 * width.x * width.y));
