@@ -79,6 +79,10 @@ impl Gpu {
         self.buffer(label, bytemuck::bytes_of(value), wgpu::BufferUsages::UNIFORM)
     }
 
+    pub fn stored<T: bytemuck::Pod>(&self, label: &str, value: &T) -> wgpu::Buffer {
+        self.buffer(label, bytemuck::bytes_of(value), wgpu::BufferUsages::STORAGE)
+    }
+
     /// A buffer with these bytes; never empty, since wgpu binds no empty buffers.
     pub fn buffer(&self, label: &str, bytes: &[u8], usage: wgpu::BufferUsages) -> wgpu::Buffer {
         let size = (bytes.len() as u64).max(16).next_multiple_of(4);

@@ -166,13 +166,14 @@ impl Layouts {
         let (vertex, fragment) = (ShaderStages::VERTEX, ShaderStages::FRAGMENT);
         let filtering = wgpu::BindingType::Sampler(SamplerBindingType::Filtering);
         let uniform = buffer(BufferBindingType::Uniform);
+        let stored = buffer(BufferBindingType::Storage { read_only: true });
         let blocks = texture(TextureSampleType::Float { filterable: false });
         Layouts {
             view: group("view", &[(0, vertex | fragment, uniform)]),
             texture: group("color texture", &[(0, fragment, filterable), (1, fragment, filtering)]),
             first_bounds: group(
                 "first bounds",
-                &[(0, fragment, uniform), (1, fragment, texture(TextureSampleType::Depth))],
+                &[(0, fragment, stored), (1, fragment, texture(TextureSampleType::Depth))],
             ),
             coarse_bounds: group("coarse bounds", &[(2, fragment, blocks)]),
             resolve: group("resolve", &[(0, fragment, filterable), (1, fragment, filtering)]),

@@ -50,7 +50,7 @@ pub fn encode(
     (map, fine, coarse): (&Target, &Target, &Target),
 ) {
     let layouts = &pipelines.layouts;
-    let uniform = gpu.uniform("shadow bounds", &height_row(light).map(|c| c as f32));
+    let uniform = gpu.stored("shadow bounds", &height_row(light).map(|c| c as f32));
     let entry = |binding, resource| wgpu::BindGroupEntry { binding, resource };
     let of_map = [entry(0, uniform.as_entire_binding()), entry(1, wgpu::BindingResource::TextureView(&map.view))];
     let of_blocks = [entry(2, wgpu::BindingResource::TextureView(&fine.view))];

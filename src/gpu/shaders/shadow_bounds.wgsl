@@ -6,7 +6,7 @@ struct Blocks {
     height: vec4<f32>,
 };
 
-@group(0) @binding(0) var<uniform> blocks: Blocks;
+@group(0) @binding(0) var<storage, read> blocks: Blocks;
 @group(0) @binding(1) var shadow_map: texture_depth_2d;
 @group(0) @binding(2) var finer: texture_2d<f32>;
 

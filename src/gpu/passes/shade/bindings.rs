@@ -37,10 +37,10 @@ fn entries(terms: Terms) -> Vec<wgpu::BindGroupLayoutEntry> {
     let all = [
         (true, 0, both, uniform),
         (true, 1, vertex, storage),
-        (shadow, 2, both, uniform),
+        (shadow, 2, both, storage),
         (shadow, 3, fragment, flat(Texel::Depth)),
         (shadow, 4, fragment, gathers),
-        (soft, 5, both, uniform),
+        (soft, 5, both, storage),
         (soft, 6, fragment, flat(Texel::Float { filterable: false })),
         (soft, 18, fragment, flat(Texel::Float { filterable: false })),
         (terms.occluded_sky, 7, fragment, storage),
@@ -103,7 +103,7 @@ fn bound<'a>(gpu: &Gpu, layouts: &'a Layouts, lit: &Lit) -> Vec<(u32, Bound<'a>)
     let lamp = gpu.uniform("lamp", &LampUniform::new(light));
     let mut bound = vec![(0, Bound::Buffer(lamp)), (1, Bound::Buffer(materials.clone()))];
     if let Some(shadow) = &light.shadow {
-        let uniform = gpu.uniform("shadow", &ShadowUniform::new(origin, &shadow.frame));
+        let uniform = gpu.stored("shadow", &ShadowUniform::new(origin, &shadow.frame));
         bound.extend([
             (2, Bound::Buffer(uniform)),
             (3, view(shadow.map)),
@@ -111,7 +111,7 @@ fn bound<'a>(gpu: &Gpu, layouts: &'a Layouts, lit: &Lit) -> Vec<(u32, Bound<'a>)
         ]);
         if let Some(soft) = &shadow.soft {
             let disc = light.sun.map_or(0.0, |sun| sun.disc_deg);
-            let uniform = gpu.uniform("disc", &DiscUniform::new(origin, &shadow.frame, soft, disc));
+            let uniform = gpu.stored("disc", &DiscUniform::new(origin, &shadow.frame, soft, disc));
             bound.extend([(5, Bound::Buffer(uniform)), (6, view(soft.bounds)), (18, view(soft.coarse))]);
         }
     }

@@ -17,7 +17,8 @@ struct Shadow {
     unused: f32,
 };
 
-@group(1) @binding(2) var<uniform> shadow: Shadow;
+// Storage: Mesa 22's llvmpipe crashes where branches depend on uniforms.
+@group(1) @binding(2) var<storage, read> shadow: Shadow;
 @group(1) @binding(3) var shadow_map: texture_depth_2d;
 @group(1) @binding(4) var gather_sampler: sampler;
 

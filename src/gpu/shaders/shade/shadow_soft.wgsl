@@ -16,7 +16,7 @@ struct Disc {
     turns: array<vec4<f32>, 128>,
 };
 
-@group(1) @binding(5) var<uniform> disc: Disc;
+@group(1) @binding(5) var<storage, read> disc: Disc;
 // Greatest and least height of the points in each block of the map, and in blocks of blocks.
 @group(1) @binding(6) var bounds_map: texture_2d<f32>;
 @group(1) @binding(18) var coarse_map: texture_2d<f32>;
@@ -26,6 +26,8 @@ const BLOCK: f32 = 8.0;
 const LEVELS: u32 = 6u;
 // Casters nearer than this share of the fade's depth leave all light.
 const CONTACT: f32 = 0.5;
+// Texels: the disc's image is no wider than the blending between texels.
+const NARROW: f32 = 0.585;
 
 fn block(at: vec2<i32>, level: u32, side: i32) -> vec2<f32> {
     let size = side >> level;
@@ -76,46 +78,50 @@ fn blockers(center: vec2<f32>, at: vec3<f32>, slope: vec2<f32>) -> vec2<f32> {
     return vec2<f32>(dot(found, distance), dot(found, vec4<f32>(1.0)));
 }
 
+// Software adapters run both sides of every branch: the map is read in one place for each purpose, in loops that end.
 fn lit_share(corner: Corner) -> f32 {
     let at = corner.shadow;
     let slope = corner.slope;
     let contact = CONTACT * shadow.range / shadow.fade;
+    // The share where it is known without a filter, -1 where it is not.
+    var known = -1.0;
     var reach = (disc.top - corner.height) / disc.climb;
-    var bounds = vec2<f32>(0.0);
+    var bounds = vec2<f32>(disc.top, -1e9);
     for (var round = 0; round < 2; round++) {
-        bounds = height_bounds(at.xy, disc.spread * reach);
+        let radius = disc.spread * reach;
+        if max(radius.x, radius.y) < NARROW {
+            break;
+        }
+        bounds = height_bounds(at.xy, radius);
         reach = min(reach, (bounds.x - corner.height) / disc.climb);
         if reach <= contact {
-            return 1.0;
+            known = 1.0;
+            break;
         }
     }
-    let radius = disc.spread * reach;
+    let radius = disc.spread * max(reach, 0.0);
+    let wide = known < 0.0 && max(radius.x, radius.y) >= NARROW;
     // How much the receiver's own plane rises within the radius.
     let rise = abs(disc.rise + slope * (shadow.range * disc.climb));
-    if bounds.y - corner.height > dot(rise, radius + 1.5) + contact * disc.climb {
-        return 0.0;
-    }
-    if max(radius.x, radius.y) < 0.1 {
-        return open_share(at.xy, at, slope);
+    if wide && bounds.y - corner.height > dot(rise, radius + 1.5) + contact * disc.climb {
+        known = 0.0;
     }
     var found = vec2<f32>(0.0);
-    let looks = min(disc.samples, u32(4.0 + 4.0 * radius.x * radius.y));
+    let looks = select(0u, min(disc.samples, u32(4.0 + 4.0 * radius.x * radius.y)), wide && known < 0.0);
     for (var k = 0u; k < looks; k++) {
         found += blockers(at.xy + disc_point(k, looks) * radius, at, slope);
     }
-    if found.y < 0.5 {
-        return open_share(at.xy, at, slope);
+    let image = disc.spread * (found.x / max(found.y, 1.0));
+    var width = vec2<f32>(0.0);
+    var taps = select(1u, 0u, known >= 0.0);
+    if max(image.x, image.y) >= NARROW {
+        // Blending between texels is itself as wide as a disc of radius 1/√3.
+        width = sqrt(max(image * image - 1.0 / 3.0, vec2<f32>(0.0)));
+        taps = min(disc.samples, u32(4.0 + 3.0 * width.x * width.y));
     }
-    // Blending between texels is itself as wide as a disc of radius 1/√3.
-    let image = disc.spread * (found.x / found.y);
-    let width = sqrt(max(image * image - 1.0 / 3.0, vec2<f32>(0.0)));
-    if max(width.x, width.y) < 0.1 {
-        return open_share(at.xy, at, slope);
-    }
-    let taps = min(disc.samples, u32(4.0 + 3.0 * width.x * width.y));
     var sum = 0.0;
     for (var k = 0u; k < taps; k++) {
         sum += open_share(at.xy + disc_point(k, taps) * width, at, slope);
     }
-    return sum / f32(taps);
+    return select(sum / f32(max(taps, 1u)), known, known >= 0.0);
 }

@@ -63,7 +63,8 @@ fn shadows_are_sharp_where_the_wall_stands_and_soft_at_its_top() {
     let Some(mut renderer) = crate::gpu::tests::renderer() else { return };
     let mut scene = town::empty();
     town::plane(&mut scene, (-64.0, -64.0), (128.0, 64.0), town::GROUND);
-    town::block(&mut scene, Presence::Both, DVec3::new(-8.0, 0.0, 0.0), DVec3::new(0.0, 40.0, 50.0));
+    // Thin: of a thick one the map knows only the side towards the sun.
+    town::block(&mut scene, Presence::Both, DVec3::new(-0.1, 0.0, 0.0), DVec3::new(0.0, 40.0, 50.0));
     let sun = sun(45.0, 270.0);
     // The northern edge of the shadow runs east along z = 0.
     let blurred = |x: f64, renderer: &mut Renderer| {
@@ -77,5 +78,5 @@ fn shadows_are_sharp_where_the_wall_stands_and_soft_at_its_top() {
     };
     let [near, middle, far] = [2.0, 15.0, 30.0].map(|x| blurred(x, &mut renderer));
     println!("{near} {middle} {far}");
-    assert!(near < 0.25 * far && (middle / far - 0.5).abs() < 0.1, "{near} {middle} {far}");
+    assert!(near < 0.15 * far && (middle / far - 0.5).abs() < 0.05, "{near} {middle} {far}");
 }

@@ -26,12 +26,12 @@ fn frame_times() {
         }),
     ];
     for (name, change) in looks {
-        let mut view = look(&scene, nadir(0.0, 0.0, 0.35, 3072, 3072), Some(sun(40.0, 130.0)));
+        let mut view = look(&scene, nadir(0.0, 0.0, 0.35, 1024, 1024), Some(sun(40.0, 130.0)));
         view.outputs[0].look.sensor = None;
         view.quality =
             Quality { supersample: 2, shadow_map: 4096, shadow_samples: 4, sky_samples: 24, field_map: 1024 };
         change(&mut view.outputs[0].look);
-        for _ in 0..2 {
+        for _ in 0..1 {
             let start = std::time::Instant::now();
             town::render(&mut renderer, &scene, view.clone());
             println!("{name}: {:.2} s; {:.3?}", start.elapsed().as_secs_f64(), renderer.timings());
