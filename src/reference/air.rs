@@ -37,10 +37,10 @@ impl<'a> Air<'a> {
         let mut light = radiance;
         if let Some(haze) = &self.haze {
             let length = dense_length(from, eye, haze.base, haze.scale_height);
-            for k in 0..4 {
+            light = std::array::from_fn(|k| {
                 let kept = libm::exp(-haze.extinction[k] * length);
-                light[k] = light[k] * kept + haze.airlight[k] * (1.0 - kept);
-            }
+                light[k] * kept + haze.airlight[k] * (1.0 - kept)
+            });
         }
         if let Some(clouds) = self.clouds.filter(|clouds| eye.y > clouds.height) {
             let kept = through(clouds, from, (eye - from).normalize());

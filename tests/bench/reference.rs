@@ -85,7 +85,7 @@ fn rays(bencher: Bencher, light: &str) {
     let demand = view(shadows, ambient);
     let options = Options { side: 2, passes: 2, ..Options::default() };
     let rays = u64::from(SIDE * SIDE * options.samples()) * per_sample;
-    bencher.counter(ItemsCount::new(rays)).bench(|| TOWN.1.render(&demand, &options).expect("the view is sound"));
+    bencher.counter(ItemsCount::new(rays)).bench_local(|| TOWN.1.render(&demand, &options).expect("the view is sound"));
 }
 
 #[divan::bench(sample_count = 5, sample_size = 1)]

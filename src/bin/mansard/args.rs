@@ -70,24 +70,7 @@ pub enum Command {
         work: WorkOptions,
     },
     /// Make the dataset of a recipe
-    Render {
-        recipe: PathBuf,
-        /// Folder of the dataset, made if it is missing
-        #[arg(short, long, value_name = "DIR")]
-        output: PathBuf,
-        /// Only these views, by name, `*` stands for anything; several with commas
-        #[arg(long, value_delimiter = ',', value_name = "VIEWS")]
-        views: Vec<String>,
-        /// What the rules report, per feature and in total, as one more .csv or .json file; the dataset has both anyway
-        #[arg(long, value_name = "FILE")]
-        reports: Option<PathBuf>,
-        #[command(flatten)]
-        backend: BackendOptions,
-        #[command(flatten)]
-        options: RecipeOptions,
-        #[command(flatten)]
-        work: WorkOptions,
-    },
+    Render(RenderArgs),
     /// Show what a recipe will derive and draw, what not, and why; needs no GPU
     Plan {
         recipe: PathBuf,
@@ -170,14 +153,28 @@ pub struct WorkOptions {
     pub jobs: Option<usize>,
 }
 
-#[derive(Clone, Debug, Default, clap::Args)]
-pub struct BackendOptions {
+#[derive(Clone, Debug, clap::Args)]
+pub struct RenderArgs {
+    pub recipe: PathBuf,
+    /// Folder of the dataset, made if it is missing
+    #[arg(short, long, value_name = "DIR")]
+    pub output: PathBuf,
+    /// Only these views, by name, `*` stands for anything; several with commas
+    #[arg(long, value_delimiter = ',', value_name = "VIEWS")]
+    pub views: Vec<String>,
+    /// What the rules report, per feature and in total, as one more .csv or .json file; the dataset has both anyway
+    #[arg(long, value_name = "FILE")]
+    pub reports: Option<PathBuf>,
     /// Who draws; `wgpu` if there is an adapter, else `reference`
     #[arg(long, value_enum)]
     pub backend: Option<BackendName>,
     /// Samples per pixel of the reference, at least; 32, or 8 where it stands in
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=65_536))]
     pub samples: Option<u32>,
+    #[command(flatten)]
+    pub options: RecipeOptions,
+    #[command(flatten)]
+    pub work: WorkOptions,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

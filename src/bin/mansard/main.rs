@@ -49,9 +49,7 @@ fn main() -> ExitCode {
             let checks = if validate { Checks::All } else { Checks::Off };
             build::run(&recipe, &output, reports.as_ref(), checks, &options, &work, &reporter)
         }
-        Command::Render { recipe, output, views, reports, backend, options, work } => {
-            render::run(&recipe, &output, &views, reports.as_ref(), &backend, &options, &work, &reporter)
-        }
+        Command::Render(render) => render::run(&render, &reporter),
         Command::Plan { recipe, format, options, work } => plan::run(&recipe, format, &options, &work, &reporter),
         Command::Cost { recipe, output, measure, options, work } => {
             cost::run(&recipe, &output, &measure, &options, &work, &reporter)

@@ -1,37 +1,26 @@
 //! `mansard render`: the dataset of a recipe.
 
-use std::path::{Path, PathBuf};
-
 use mansard::pipeline::{BackendChoice, RenderOptions, render_dataset};
 use mansard::source::SourceMap;
 
-use crate::args::{BackendName, BackendOptions, RecipeOptions, WorkOptions};
+use crate::args::{BackendName, RenderArgs};
 use crate::build::{load, tell, use_threads};
 use crate::progress::Reporter;
 use crate::report::{self, Failure};
 use crate::reports;
 
-pub fn run(
-    path: &Path,
-    output: &Path,
-    views: &[String],
-    reports_file: Option<&PathBuf>,
-    backend: &BackendOptions,
-    options: &RecipeOptions,
-    work: &WorkOptions,
-    reporter: &Reporter,
-) -> Result<(), Failure> {
-    reports::check(reports_file)?;
-    use_threads(work)?;
+pub fn run(args: &RenderArgs, reporter: &Reporter) -> Result<(), Failure> {
+    reports::check(args.reports.as_ref())?;
+    use_threads(&args.work)?;
     let mut sources = SourceMap::default();
-    let recipe = load(path, options, &mut sources, reporter.is_quiet())?;
-    let choice = match backend.backend {
+    let recipe = load(&args.recipe, &args.options, &mut sources, reporter.is_quiet())?;
+    let backend = match args.backend {
         None => BackendChoice::Any,
         Some(BackendName::Wgpu) => BackendChoice::Gpu,
         Some(BackendName::Reference) => BackendChoice::Reference,
     };
-    let (output, views) = (output.to_owned(), views.to_vec());
-    let options = RenderOptions { output, views, backend: choice, samples: backend.samples };
+    let (output, views) = (args.output.clone(), args.views.clone());
+    let options = RenderOptions { output, views, backend, samples: args.samples };
     let failed = std::cell::Cell::new(false);
     let all_reports = std::cell::RefCell::new(Vec::new());
     let told = |built: &mansard::pipeline::BuiltScene| {
@@ -40,7 +29,7 @@ pub fn run(
     };
     let summary =
         render_dataset(&recipe, &options, &sources, reporter, &told).map_err(|e| report::failure(e, &sources))?;
-    reports::write(reports_file, &all_reports.borrow())?;
+    reports::write(args.reports.as_ref(), &all_reports.borrow())?;
     reporter.say(&format!(
         "wrote {} images of {} views and {} to {}",
         summary.images,

@@ -12,10 +12,10 @@ const OUTPUTS: [Output; 3] = [Output::Color, Output::Instance, Output::Depth];
 fn the_town_is_the_same_town() {
     let Some(mut renderer) = crate::gpu::tests::renderer() else { return };
     let scene = town::town(6);
-    let slanted = tilted(nadir(0.0, 0.0, 0.4, 320, 240), 30.0);
-    let mut parallel = nadir(3.05, -5.13, 0.4, 320, 240);
+    let slanted = tilted(nadir(0.0, 0.0, 0.8, 160, 120), 30.0);
+    let mut parallel = nadir(3.05, -5.13, 0.8, 160, 120);
     parallel.projection = Projection::Orthographic { half_x: 64.0, half_y: 48.0 };
-    let cameras = [("slanted", slanted), ("nadir", nadir(0.3, -0.2, 0.37, 320, 240)), ("parallel", parallel)];
+    let cameras = [("slanted", slanted), ("nadir", nadir(0.3, -0.2, 0.74, 160, 120)), ("parallel", parallel)];
     for (name, camera) in cameras {
         for (shadows, elevation) in
             [(Shadows::Off, 50.0), (Shadows::Hard, 50.0), (Shadows::Hard, 12.0), (Shadows::Soft, 35.0)]
@@ -25,7 +25,7 @@ fn the_town_is_the_same_town() {
             let mut demand = view(camera, sun(elevation, 120.0), outputs);
             (demand.quality.supersample, demand.quality.shadow_map) = (4, 4096);
             let drawn = town::render(&mut renderer, &scene, demand.clone());
-            let traced = render(&scene, &demand, &Options { side: 4, passes: 2, ..Options::default() });
+            let traced = render(&scene, &demand, &Options { side: 3, passes: 2, ..Options::default() });
             let case = format!("{name}, {shadows:?} shadows at {elevation}°");
             if shadows == Shadows::Off {
                 compare_labels(&case, &drawn, &traced);

@@ -38,7 +38,7 @@ fn cases() -> Vec<Case> {
     let plain = |shadows, ambient| Look::plain(shadows, ambient);
     let lit = Look::plain(Shadows::Hard, SKY);
     vec![
-        ("light", 50.0, 0.0, (0.004, 0.0005), plain(Shadows::Off, SKY)),
+        ("light", 50.0, 0.0, (0.01, 0.001), plain(Shadows::Off, SKY)),
         ("hard shadows", 50.0, 20.0, (0.01, 0.001), plain(Shadows::Hard, Ambient::Off)),
         ("hard shadows of a low sun", 8.0, 0.0, (0.01, 0.001), plain(Shadows::Hard, Ambient::Off)),
         ("hard shadows of the zenith", 90.0, 30.0, (0.01, 0.001), plain(Shadows::Hard, Ambient::Off)),
