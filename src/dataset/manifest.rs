@@ -54,9 +54,15 @@ pub struct InputFile {
 /// What made the images.
 #[derive(Clone, Debug, Serialize)]
 pub struct RendererInfo {
+    /// That of the adapter, or `reference`.
     pub backend: String,
-    pub adapter: String,
-    pub driver: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub adapter: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub driver: Option<String>,
+    /// Of the reference.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub samples_per_pixel: Option<u32>,
 }
 
 /// One scene as it was built.
@@ -147,6 +153,9 @@ pub struct ViewRecord {
     pub acquisitions: Vec<AcquisitionRecord>,
     /// Image name → file.
     pub images: BTreeMap<String, WrittenFile>,
+    /// Image name → mean standard error of its linear light, of images that the reference made.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub standard_errors: BTreeMap<String, f64>,
 }
 
 /// Camera and sun of one acquisition, as used.

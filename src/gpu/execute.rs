@@ -189,7 +189,8 @@ impl Execution<'_> {
                 shadow_map::encode(recorder, drawing, target(0));
             }),
             PassKind::ShadowBounds { light } => {
-                shadow_bounds::encode(recorder, gpu, pipelines, light, (&targets[&pass.reads[0]], target(0)));
+                let maps = (&targets[&pass.reads[0]], target(0), target(1));
+                shadow_bounds::encode(recorder, gpu, pipelines, light, maps);
             }
             PassKind::SkyMaps { draw, frames } => {
                 for (layer, light) in (0..).zip(frames.iter()) {

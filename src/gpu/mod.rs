@@ -4,8 +4,10 @@
 //! ([`crate::plan::demand::Camera::origin`]): however far the camera is, the scene keeps its digits. Depth is reversed
 //! 32-bit float from the near plane to the scene's far end. Images are drawn in tiles; colour is linear 16-bit float,
 //! averaged over k × k samples per pixel and encoded to sRGB last; object numbers are drawn at pixel centres into 32-bit
-//! integers. A surface is drawn iff its opacity (material times texel) is at least one half.
+//! integers. A surface is drawn where its opacity (material times texel) is at least
+//! one half, or the cut-off of its material where that is masked; opaque materials have no holes.
 
+mod cutouts;
 mod device;
 mod draws;
 mod execute;

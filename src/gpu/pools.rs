@@ -50,11 +50,10 @@ fn create(gpu: &Gpu, key: TextureKey, size: (u32, u32)) -> Target {
         Format::Field16 => Usage::TEXTURE_BINDING | Usage::COPY_DST,
     };
     let extent = wgpu::Extent3d { width: size.0, height: size.1, depth_or_array_layers: key.layers };
-    let mip_level_count = if key.format == Format::Bounds32 { extent.max_mips(wgpu::TextureDimension::D2) } else { 1 };
     let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
         label: Some(key.format.name()),
         size: extent,
-        mip_level_count,
+        mip_level_count: 1,
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,
         format: texture_format(key.format),
@@ -80,15 +79,6 @@ impl Target {
     pub fn layers(&self) -> wgpu::TextureView {
         let dimension = Some(wgpu::TextureViewDimension::D2Array);
         self.texture.create_view(&wgpu::TextureViewDescriptor { dimension, ..Default::default() })
-    }
-
-    /// One halving.
-    pub fn level(&self, number: u32) -> wgpu::TextureView {
-        self.texture.create_view(&wgpu::TextureViewDescriptor {
-            base_mip_level: number,
-            mip_level_count: Some(1),
-            ..Default::default()
-        })
     }
 }
 

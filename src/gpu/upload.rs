@@ -9,12 +9,13 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::GpuError;
+use super::cutouts::Textures;
 use super::device::Gpu;
 use super::junctions;
 use super::mipmaps::{self, linear_from_srgb};
 use crate::interpreter::material::{MapTransform, Material};
 use crate::plan::pass::Surface;
-use crate::plan::summary::material_surfaces;
+use crate::plan::summary::{least_alpha, material_surfaces};
 use crate::scene::reflectance::near_infrared_gain;
 use crate::scene::{Scene, SceneClass, SceneObject, TriMesh};
 
@@ -75,6 +76,7 @@ impl GpuScene {
         };
         let (mut world, mut attributes) = (Vec::new(), Vec::<Attributes>::new());
         let mut numbers = MaterialNumbers::default();
+        let mut textures = Textures::new(scene.textures.iter().map(|(_, texture)| texture.clone()));
         let (mut chunks, mut indices) = (Vec::new(), Vec::new());
         for (number, object) in scene.objects.iter().enumerate() {
             let mesh = junctions::conforming(&object.mesh);
@@ -87,7 +89,11 @@ impl GpuScene {
                 let start = indices.len();
                 let triangles = &mesh.triangles[group.first as usize..][..group.count as usize];
                 indices.extend(triangles.iter().flatten().map(|i| i + base));
-                let texture = texture_of(material).filter(|_| surface != Surface::Plain);
+                let mut texture = texture_of(material).filter(|_| surface != Surface::Plain);
+                if surface == Surface::Cutout {
+                    let least = least_alpha(&scene.materials[material]);
+                    texture = texture.map(|texture| textures.with_holes_below(texture, least));
+                }
                 chunks.push(Chunk { object: number, surface, texture, indices: start..indices.len() });
             }
         }
@@ -106,8 +112,8 @@ impl GpuScene {
             attributes: gpu.buffer("attributes", bytemuck::cast_slice(&attributes), wgpu::BufferUsages::VERTEX),
             positions: gpu.buffer("positions", &empty_positions, wgpu::BufferUsages::VERTEX),
             materials: gpu.buffer("materials", bytemuck::cast_slice(&materials), wgpu::BufferUsages::STORAGE),
-            textures: scene.textures.iter().map(|(_, t)| t.clone()).collect(),
-            texture_groups: scene.textures.iter().map(|_| None).collect(),
+            texture_groups: textures.images.iter().map(|_| None).collect(),
+            textures: textures.images,
             world,
             placed: None,
         }

@@ -28,13 +28,13 @@ pub struct Settled {
     pub record: Option<BudgetRecord>,
 }
 
-/// Settles the quality of a dataset for one scene. A renderer is opened only if there is something to measure.
+/// Settles the quality of a dataset for one scene. Without a renderer one is opened, if there is something to measure.
 pub fn settle(
     recipe: &Recipe,
     dataset: &DatasetSpec,
     index: usize,
     built: &BuiltScene,
-    renderer: &mut Option<Renderer>,
+    renderer: Option<&mut Renderer>,
     progress: &dyn Progress,
 ) -> Result<Settled, PipelineError> {
     let unsettled = Settled { dataset: dataset.clone(), record: None };
@@ -55,9 +55,10 @@ pub fn settle(
         return Ok(Settled { record: Some(record), ..unsettled });
     };
     progress.begin("budget", None);
+    let mut opened = None;
     let renderer = match renderer {
         Some(renderer) => renderer,
-        None => renderer.insert(Renderer::new()?),
+        None => opened.insert(Renderer::new()?),
     };
     let wanted = Windows { side: SIDE, count: WINDOWS, enough: promise.enough() };
     let mut bench = Bench::new(renderer, &built.scene, &demands, height, wanted, &|_| {})?;

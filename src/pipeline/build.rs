@@ -110,7 +110,7 @@ pub fn build_scene_within(
     // Lay the ground under them and put everything together.
     progress.begin("scene", None);
     let layers = ground_layers(&derived.features);
-    let obstacles = place.greenery.as_ref().map(|_| vegetation::obstacles(&place.features, &derived.features));
+    let sites = place.greenery.as_ref().map(|_| vegetation::sites(&place.features, &derived.features));
     let area = Polygon { outer: place.area.clone(), holes: Vec::new() };
     let ground = build_ground(&area, &place.terrain, terrain_tolerance_m, &layers)
         .map_err(|source| PipelineError::Ground { scene: spec.name.clone(), source })?;
@@ -120,8 +120,8 @@ pub fn build_scene_within(
     let mut files = textures.files;
     files.extend(asset_files(&assets).map_err(|e| OutputError::new(&recipe.path, e))?);
     let Place { frame, terrain, mut ledger, features, greenery, .. } = place;
-    if let (Some(greenery), Some(obstacles)) = (&greenery, &obstacles) {
-        vegetation::plant(&mut scene, greenery, obstacles, &terrain, spec.seed, &mut ledger);
+    if let (Some(greenery), Some(sites)) = (&greenery, &sites) {
+        vegetation::plant(&mut scene, greenery, sites, &terrain, spec.seed, &mut ledger);
     }
     ledger.revise(features.iter().map(|f| f.id.to_string()).zip(derived.outcomes));
     ledger.merge(derived.ledger);

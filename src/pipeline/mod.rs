@@ -3,6 +3,7 @@
 //! In: a recipe's path and the command line's choices. Out: scenes ([`build_scene`]), plans ([`plan_views`]) and
 //! datasets ([`render_dataset`]).
 
+mod backend;
 mod budget;
 mod build;
 mod cost;
@@ -26,6 +27,7 @@ mod validation;
 mod vegetation;
 mod views;
 
+pub use backend::BackendChoice;
 pub use build::{BuiltScene, Checks, build_scene};
 pub use cost::{CostOptions, CostSummary, measure_cost};
 pub use error::PipelineError;

@@ -8,6 +8,8 @@ pub trait Progress: Sync {
     fn step(&self, count: u64);
     /// The phase is over; `summary` says in a few words what came out.
     fn end(&self, summary: &str);
+    /// Something goes on, but not as one would expect.
+    fn warn(&self, message: &str);
 }
 
 /// Shows nothing.
@@ -17,4 +19,5 @@ impl Progress for Silent {
     fn begin(&self, _: &'static str, _: Option<u64>) {}
     fn step(&self, _: u64) {}
     fn end(&self, _: &str) {}
+    fn warn(&self, _: &str) {}
 }

@@ -5,19 +5,19 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::sync_channel;
 
-use super::budget::settle;
+use super::backend::{Backend, BackendChoice, Drawn};
+use super::budget::{Settled, settle};
 use super::build::{BuiltScene, Checks, build_scene};
 use super::error::PipelineError;
 use super::progress::Progress;
 use super::recipe::Recipe;
 use super::record::{acquisition_record, inputs};
 use super::views::{SceneViews, scene_views};
-use crate::dataset::manifest::{BudgetRecord, Generator, Manifest, RendererInfo, ViewRecord};
+use crate::dataset::manifest::{BudgetRecord, Generator, Manifest, ViewRecord};
 use crate::dataset::reports::{self, SceneReports};
 use crate::dataset::writer::{WrittenFile, write_file};
 use crate::dataset::{DatasetError, image_path, is_levir_label, write_image};
 use crate::frame::{Frame, Image, Pixels};
-use crate::gpu::Renderer;
 use crate::output::{OutputError, prepare_folder};
 use crate::plan::view::DrawnView;
 use crate::scene::SceneClass;
@@ -31,6 +31,9 @@ pub struct RenderOptions {
     pub output: PathBuf,
     /// Names of views, `*` stands for anything; all views if empty.
     pub views: Vec<String>,
+    pub backend: BackendChoice,
+    /// Per pixel, of the reference.
+    pub samples: Option<u32>,
 }
 
 /// What was made.
@@ -74,7 +77,7 @@ pub fn render_dataset(
     scene_files.extend(write_reports(&built, &options.output)?);
 
     // Images.
-    let mut renderer = Some(Renderer::new()?);
+    let mut backend = Backend::open(options.backend, options.samples, progress)?;
     for dataset in &recipe.spec.datasets {
         let folder = folder(dataset);
         let (mut records, mut budgets) = (Vec::new(), Vec::new());
@@ -83,16 +86,15 @@ pub fn render_dataset(
             if views.drawn.is_empty() {
                 continue;
             }
-            let settled = settle(recipe, dataset, index, scene, &mut renderer, progress)?;
+            let settled = settle_for(&mut backend, recipe, dataset, (index, scene), progress)?;
             let views = match &settled.record {
                 Some(_) => scene_views(recipe, &settled.dataset, index, scene, &|name| is_wanted(name, &options.views)),
                 None => views,
             };
             budgets.extend(settled.record);
-            let renderer = renderer.as_mut().expect("it was opened above");
-            progress.begin("render", Some(views.drawn.len() as u64));
-            renderer.upload(&scene.scene)?;
-            records.extend(render_views(renderer, dataset, scene, &views, &folder, progress)?);
+            backend.begin(&views, progress);
+            backend.upload(&scene.scene)?;
+            records.extend(render_views(&mut backend, dataset, scene, &views, &folder, progress)?);
             progress.end(&format!("{} views", views.drawn.len()));
         }
         summary.views += records.len();
@@ -100,14 +102,34 @@ pub fn render_dataset(
         // Scenes lie beside the folders of several datasets.
         let from_here = |f: &WrittenFile| WrittenFile { path: format!("../{}", f.path), sha256: f.sha256.clone() };
         let files = if several { scene_files.iter().map(from_here).collect() } else { scene_files.clone() };
-        let renderer = renderer.as_ref().expect("it was opened above");
-        let manifest = manifest(recipe, dataset, sources, renderer, &built, (records, budgets), files)?;
+        let manifest = manifest(recipe, dataset, sources, &backend, &built, (records, budgets), files)?;
         write_file(&folder, Path::new("manifest.json"), &manifest.to_bytes())?;
         let prefix = if several { format!("{}/", dataset.name) } else { String::new() };
         summary.other_files.push(format!("{prefix}manifest.json"));
     }
     summary.other_files.extend(scene_files.into_iter().map(|f| f.path));
     Ok(summary)
+}
+
+/// Budgets are about the GPU's approximations; the reference has none of its knobs, and tells its noise.
+fn settle_for(
+    backend: &mut Backend,
+    recipe: &Recipe,
+    dataset: &DatasetSpec,
+    (index, scene): (usize, &BuiltScene),
+    progress: &dyn Progress,
+) -> Result<Settled, PipelineError> {
+    match backend {
+        Backend::Gpu(renderer) => settle(recipe, dataset, index, scene, Some(renderer), progress),
+        Backend::Reference { .. } => {
+            if dataset.quality.budget.is_some() {
+                progress.warn(
+                    "the reference renderer draws: the budget chooses nothing, the manifest says the images' noise",
+                );
+            }
+            Ok(Settled { dataset: dataset.clone(), record: None })
+        }
+    }
 }
 
 /// `reports.csv` and `reports.json` of all scenes, if any rule reports.
@@ -122,7 +144,7 @@ fn write_reports(built: &[BuiltScene], folder: &Path) -> Result<Vec<WrittenFile>
 
 /// Draws views one after another; a second thread encodes and writes the images of the one before.
 fn render_views(
-    renderer: &mut Renderer,
+    backend: &mut Backend,
     dataset: &DatasetSpec,
     scene: &BuiltScene,
     views: &SceneViews,
@@ -130,19 +152,23 @@ fn render_views(
     progress: &dyn Progress,
 ) -> Result<Vec<ViewRecord>, PipelineError> {
     std::thread::scope(|scope| {
-        let (send, receive) = sync_channel::<(usize, Frame)>(1);
+        let (send, receive) = sync_channel::<(usize, Drawn)>(1);
+        let counts_views = backend.counts_views();
         let writer = scope.spawn(move || -> Result<Vec<ViewRecord>, DatasetError> {
             let mut records = Vec::new();
-            for (number, frame) in receive {
+            for (number, Drawn { frame, errors }) in receive {
                 let drawn = &views.drawn[number];
                 let spec = &dataset.views[drawn.view];
                 let images = write_images(dataset, spec, frame, folder)?;
-                records.push(view_record(drawn, spec, scene, images));
-                progress.step(1);
+                let standard_errors = errors.into_iter().collect();
+                records.push(ViewRecord { standard_errors, ..view_record(drawn, spec, scene, images) });
+                if counts_views {
+                    progress.step(1);
+                }
             }
             Ok(records)
         });
-        let drawn = draw(renderer, views, &mut |number, frame| send.send((number, frame)).is_ok());
+        let drawn = draw(backend, views, progress, &mut |number, drawn| send.send((number, drawn)).is_ok());
         drop(send);
         let written = writer.join().expect("the writer does not panic");
         drawn?;
@@ -152,22 +178,26 @@ fn render_views(
 
 /// Renders every view and hands its images on; stops early if nobody takes them any more.
 fn draw(
-    renderer: &mut Renderer,
+    backend: &mut Backend,
     views: &SceneViews,
-    hand_on: &mut dyn FnMut(usize, Frame) -> bool,
+    progress: &dyn Progress,
+    hand_on: &mut dyn FnMut(usize, Drawn) -> bool,
 ) -> Result<(), PipelineError> {
     let mut plans = views.plan.views.iter();
     for (number, drawn) in views.drawn.iter().enumerate() {
-        let mut frame: Option<Frame> = None;
-        for _ in &drawn.demands {
-            let part = renderer.render(plans.next().expect("one plan per demand"))?;
-            match &mut frame {
-                Some(frame) => frame.images.extend(part.images),
-                None => frame = Some(part),
+        let mut whole: Option<Drawn> = None;
+        for demand in &drawn.demands {
+            let part = backend.render(demand, plans.next().expect("one plan per demand"), progress)?;
+            match &mut whole {
+                Some(whole) => {
+                    whole.frame.images.extend(part.frame.images);
+                    whole.errors.extend(part.errors);
+                }
+                None => whole = Some(part),
             }
         }
-        let frame = frame.expect("a view has at least one acquisition");
-        if !hand_on(number, frame) {
+        let whole = whole.expect("a view has at least one acquisition");
+        if !hand_on(number, whole) {
             break;
         }
     }
@@ -204,6 +234,7 @@ fn view_record(
         draws: drawn.draws.iter().map(|d| (d.path.clone(), d.value.into())).collect(),
         acquisitions: drawn.demands.iter().map(acquisition_record).collect(),
         images,
+        standard_errors: BTreeMap::new(),
     }
 }
 
@@ -211,12 +242,11 @@ fn manifest(
     recipe: &Recipe,
     dataset: &DatasetSpec,
     sources: &SourceMap,
-    renderer: &Renderer,
+    backend: &Backend,
     built: &[BuiltScene],
     (views, budgets): (Vec<ViewRecord>, Vec<BudgetRecord>),
     files: Vec<WrittenFile>,
 ) -> Result<Manifest, PipelineError> {
-    let adapter = renderer.adapter();
     Ok(Manifest {
         manifest: 1,
         generator: Generator { name: "mansard", version: env!("CARGO_PKG_VERSION") },
@@ -224,11 +254,7 @@ fn manifest(
         dataset: dataset.name.clone(),
         arguments: recipe.arguments_without_folders(),
         inputs: inputs(recipe, sources, built).map_err(|e| OutputError::new(&recipe.path, e))?,
-        renderer: RendererInfo {
-            backend: adapter.backend.clone(),
-            adapter: adapter.name.clone(),
-            driver: adapter.driver.clone(),
-        },
+        renderer: backend.info(),
         classes: SceneClass::ALL.iter().map(|class| (*class as u8, class.name())).collect(),
         scenes: built.iter().map(|b| b.record.clone()).collect(),
         budgets,

@@ -60,11 +60,10 @@ pub struct PlannedRecipe {
 /// Builds the scenes of a recipe and plans all views of all its datasets.
 pub fn plan_views(recipe: &Recipe, progress: &dyn Progress) -> Result<PlannedRecipe, PipelineError> {
     let mut scenes = Vec::new();
-    let mut renderer = None;
     for index in 0..recipe.spec.scenes.len() {
         let built = build_scene(recipe, index, Checks::Off, progress)?;
         for dataset in &recipe.spec.datasets {
-            let settled = settle(recipe, dataset, index, &built, &mut renderer, progress)?;
+            let settled = settle(recipe, dataset, index, &built, None, progress)?;
             let views = scene_views(recipe, &settled.dataset, index, &built, &|_| true);
             scenes.push(PlannedScene {
                 dataset: dataset.name.clone(),

@@ -130,9 +130,12 @@ impl Air {
 mod tests {
     use super::*;
 
+    /// Direct and diffuse of each band.
+    type Shares = [(f64, f64); 4];
+
     /// Shares of sunlight (direct, diffuse) at the four wavelengths by `pvlib.spectrum.spectrl2` of pvlib 0.13, which
     /// follows NREL's program: ozone 0.3 atm-cm, water 1.4 cm, exponent 1.3, the ground's albedo as here.
-    const PUBLISHED: [(f64, f64, [(f64, f64); 4]); 5] = [
+    const PUBLISHED: [(f64, f64, Shares); 5] = [
         (45.0, 3.0, [(0.7799, 0.0811), (0.7431, 0.1003), (0.6496, 0.1442), (0.8975, 0.0467)]),
         (10.0, 3.0, [(0.3791, 0.0381), (0.3120, 0.0462), (0.1819, 0.0641), (0.6694, 0.0276)]),
         (30.0, 5.0, [(0.4501, 0.1562), (0.3941, 0.1723), (0.2877, 0.1965), (0.6436, 0.1184)]),

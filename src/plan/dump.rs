@@ -15,7 +15,7 @@ impl PipelineKey {
             PipelineKey::Ids { cutout } => format!("ids{}", cutout_suffix(cutout)),
             PipelineKey::Depth { cutout } => format!("depth{}", cutout_suffix(cutout)),
             PipelineKey::ShadowBounds { first: true } => "shadow_bounds".to_owned(),
-            PipelineKey::ShadowBounds { first: false } => "shadow_bounds.halve".to_owned(),
+            PipelineKey::ShadowBounds { first: false } => "shadow_bounds.coarse".to_owned(),
             PipelineKey::Resolve { supersample, linear } => {
                 format!("resolve.{supersample}x{supersample}{}", if linear { ".linear" } else { "" })
             }

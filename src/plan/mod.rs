@@ -6,7 +6,7 @@ pub mod demand;
 pub mod dump;
 pub mod effects;
 pub mod field;
-mod finite;
+pub mod finite;
 pub mod light;
 mod look;
 pub mod pass;

@@ -28,7 +28,7 @@ pub enum PipelineKey {
     ShadowMap {
         cutout: bool,
     },
-    /// The first reads the shadow map, the others halve.
+    /// The first reads the shadow map, the other its blocks.
     ShadowBounds {
         first: bool,
     },

@@ -16,7 +16,7 @@ pub enum Format {
     Srgb8,
     /// Object number + 1, 0 where nothing is; 32-bit unsigned.
     Id32,
-    /// Greatest and least height of a block of a shadow map, metres, 32-bit float; with all its halvings.
+    /// Greatest and least height of a block of a shadow map, metres, 32-bit float.
     Bounds32,
     /// A number, 16-bit float.
     Field16,

@@ -93,6 +93,8 @@ pub struct ShadowLook {
 pub struct SoftLook {
     /// Highest and lowest point of each block of the map.
     pub bounds: ResourceId,
+    /// The same of blocks of blocks.
+    pub coarse: ResourceId,
     /// Most looks into the map, for the search of what stands in the way and for the filter each.
     pub samples: u32,
     /// World height of the scene's top, metres.
@@ -192,7 +194,8 @@ impl Illumination {
 
     /// Maps that the shading reads.
     pub fn reads(&self) -> Vec<ResourceId> {
-        let shadow = self.shadow.iter().flat_map(|s| std::iter::once(s.map).chain(s.soft.map(|soft| soft.bounds)));
+        let soft = self.shadow.iter().filter_map(|shadow| shadow.soft).flat_map(|soft| [soft.bounds, soft.coarse]);
+        let shadow = self.shadow.iter().map(|shadow| shadow.map).chain(soft);
         let sky = self.sky.iter().map(|sky| sky.maps);
         let ground = self.ground.map(|(_, look)| look);
         let fields = [self.cloud_shadow, self.cloud_cover, ground].into_iter().flatten().map(|look| look.map);

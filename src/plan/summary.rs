@@ -33,23 +33,35 @@ pub fn summarize(scene: &Scene) -> Vec<ObjectSummary> {
 
 /// How each material of the scene is drawn; `None` is invisible.
 pub fn material_surfaces(scene: &Scene) -> Vec<Option<Surface>> {
-    let has_holes: Vec<bool> = scene.textures.iter().map(|(_, t)| t.pixels().any(|p| p.0[3] < 128)).collect();
-    scene.materials.iter().map(|m| surface(m, scene.textures.as_slice(), &has_holes)).collect()
+    let alpha = |t: &image::RgbaImage| t.pixels().map(|p| p.0[3]).min().unwrap_or(u8::MAX);
+    let alphas: Vec<u8> = scene.textures.iter().map(|(_, texture)| alpha(texture)).collect();
+    scene.materials.iter().map(|m| surface(m, scene.textures.as_slice(), &alphas)).collect()
 }
 
-fn surface(material: &Material, textures: &[(Arc<str>, Arc<image::RgbaImage>)], has_holes: &[bool]) -> Option<Surface> {
-    let there_from = match material.opacity_mode {
+/// Opacity under which a surface of the material is not there.
+fn there_from(material: &Material) -> f64 {
+    match material.opacity_mode {
         OpacityMode::Blend => OPAQUE_FROM,
         OpacityMode::Mask => material.opacity_cutoff,
         OpacityMode::Opaque => 0.0,
-    };
-    if material.opacity < there_from {
+    }
+}
+
+/// Alpha, 0..1, under which a texel is a hole in a surface of the material: there its opacity times alpha is too low.
+pub fn least_alpha(material: &Material) -> f64 {
+    let from = there_from(material);
+    if from > 0.0 { from / material.opacity } else { 0.0 }
+}
+
+/// `alphas`: the least of each texture.
+fn surface(material: &Material, textures: &[(Arc<str>, Arc<image::RgbaImage>)], alphas: &[u8]) -> Option<Surface> {
+    if material.opacity < there_from(material) {
         return None;
     }
     let texture = material.colormap.as_ref().and_then(|n| textures.binary_search_by(|(name, _)| name.cmp(n)).ok());
     Some(match texture {
         None => Surface::Plain,
-        Some(t) if has_holes[t] => Surface::Cutout,
+        Some(t) if f64::from(alphas[t]) < least_alpha(material) * 255.0 => Surface::Cutout,
         Some(_) => Surface::Textured,
     })
 }

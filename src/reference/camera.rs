@@ -18,13 +18,3 @@ pub fn ray(camera: &Camera, x: f64, y: f64) -> (DVec3, DVec3) {
         }
     }
 }
-
-/// Whether every number of the camera is finite.
-pub fn is_finite(camera: &Camera) -> bool {
-    let (a, b) = match camera.projection {
-        Projection::Perspective { tan_x, tan_y } => (tan_x, tan_y),
-        Projection::Orthographic { half_x, half_y } => (half_x, half_y),
-    };
-    let vectors = [camera.position, camera.right, camera.up, camera.forward];
-    vectors.iter().all(|v| v.is_finite()) && a.is_finite() && b.is_finite() && camera.near.is_finite()
-}

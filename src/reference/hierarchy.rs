@@ -16,13 +16,16 @@ const LEAF: usize = 4;
 
 type Corners = [[f64; 3]; 2];
 
+/// The same in half the memory, never smaller: a node fits a cache line.
+type Outer = [[f32; 3]; 2];
+
 /// Nothing is inside it.
 const NOWHERE: Corners = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
 
 /// Two children: box, first node or triangle, number of triangles (0 for a node).
 #[derive(Clone, Copy, Debug)]
 struct Node {
-    corners: [Corners; 2],
+    corners: [Outer; 2],
     first: [u32; 2],
     count: [u32; 2],
 }
@@ -59,6 +62,13 @@ impl BHShape<f64, 3> for Shape {
 
 fn joined(a: &Corners, b: &Corners) -> Corners {
     [std::array::from_fn(|k| a[0][k].min(b[0][k])), std::array::from_fn(|k| a[1][k].max(b[1][k]))]
+}
+
+/// Rounded outwards.
+fn outer(corners: &Corners) -> Outer {
+    let least = |c: f64| if f64::from(c as f32) > c { (c as f32).next_down() } else { c as f32 };
+    let greatest = |c: f64| if f64::from(c as f32) < c { (c as f32).next_up() } else { c as f32 };
+    [corners[0].map(least), corners[1].map(greatest)]
 }
 
 fn corners_of(triangle: &Triangle) -> Corners {
@@ -127,11 +137,11 @@ struct Packing<'a> {
 impl Packing<'_> {
     fn pack(&mut self, bounds: Corners) {
         let sizes = self.sizes();
-        let empty = Node { corners: [NOWHERE; 2], first: [0; 2], count: [0; 2] };
+        let empty = Node { corners: [outer(&NOWHERE); 2], first: [0; 2], count: [0; 2] };
         self.nodes.push(empty);
         if sizes[0] <= LEAF {
             let (first, count) = self.leaf(0);
-            self.nodes[0] = Node { corners: [bounds, NOWHERE], first: [first, 0], count: [count, 0] };
+            self.nodes[0] = Node { corners: [outer(&bounds), outer(&NOWHERE)], first: [first, 0], count: [count, 0] };
             return;
         }
         // Places in the crate's tree and in ours.
@@ -144,7 +154,7 @@ impl Packing<'_> {
             let children = [(child_l_index, child_l_aabb), (child_r_index, child_r_aabb)];
             let mut node = empty;
             for (i, (index, aabb)) in children.into_iter().enumerate() {
-                node.corners[i] = [aabb.min.coords.into(), aabb.max.coords.into()];
+                node.corners[i] = outer(&[aabb.min.coords.into(), aabb.max.coords.into()]);
                 if sizes[index] <= LEAF {
                     (node.first[i], node.count[i]) = self.leaf(index);
                 } else {

@@ -5,6 +5,7 @@
 //! spread the standard error comes. Labels and depth are those of one ray through the pixel's centre. Every sample is
 //! keyed by view, pixel, pass and number: threads change no byte, and images of one view share their noise.
 
+mod air;
 mod camera;
 mod color;
 mod hierarchy;
@@ -23,8 +24,8 @@ pub use tracer::Tracer;
 pub enum ReferenceError {
     #[error("object {object} (instance {instance}): the {what} of vertex {vertex} is not a finite number")]
     NotFinite { object: usize, instance: u32, what: &'static str, vertex: usize },
-    #[error("view {0}: the camera or the sun has a number that is not finite")]
-    NotFiniteView(String),
+    #[error("view {view}: a number of {what} is not finite")]
+    NotFiniteView { view: String, what: &'static str },
     #[error("view {0} was planned for another scene")]
     WrongScene(String),
     #[error("{passes} passes of {side} × {side} samples: at least 2 passes of 1 × 1 to 256 × 256 are needed")]
@@ -54,11 +55,26 @@ pub struct Options<'a> {
     pub enough: Option<f64>,
     /// Hears of every pass, on the calling thread.
     pub told: &'a dyn Fn(Progress),
+    /// Hears of every row of every pass, on any thread.
+    pub row: &'a (dyn Fn() + Sync),
 }
 
 impl Default for Options<'_> {
     fn default() -> Self {
-        Options { seed: 0, side: 3, passes: 4, enough: None, told: &|_| {} }
+        Options { seed: 0, side: 3, passes: 4, enough: None, told: &|_| {}, row: &|| {} }
+    }
+}
+
+impl Options<'_> {
+    /// At least `samples` per pixel, in passes of at most 8 × 8.
+    pub fn of_samples(samples: u32) -> Self {
+        let side = (samples / 2).isqrt().clamp(1, 8);
+        Options { side, passes: samples.div_ceil(side * side).max(2), ..Options::default() }
+    }
+
+    /// Per pixel, if it does not stop earlier.
+    pub fn samples(&self) -> u32 {
+        self.side * self.side * self.passes
     }
 }
 
@@ -67,7 +83,7 @@ impl Default for Options<'_> {
 pub struct Estimate {
     /// Samples per pixel.
     pub samples: u32,
-    /// Linear light before encoding, per pixel.
+    /// Linear light of the image's channels per pixel, spread by the sensor's optics, before its exposure.
     pub linear: Vec<[f64; 3]>,
     /// Of `linear`, per pixel.
     pub standard_error: Vec<[f64; 3]>,

@@ -55,12 +55,12 @@ impl Ray {
     /// Distance at which the ray enters a box, if it is inside it somewhere between `near` and `far`. Planes that the
     /// ray runs in count as inside: NaN is no bound (Ize 2013, "Robust BVH Ray Traversal").
     #[inline]
-    pub fn enters(&self, corners: &[[f64; 3]; 2], near: f64, far: f64) -> Option<f64> {
+    pub fn enters(&self, corners: &[[f32; 3]; 2], near: f64, far: f64) -> Option<f64> {
         let (mut enter, mut leave) = (near, far);
         for (k, inverse) in self.inverse.into_iter().enumerate() {
             let first = usize::from(inverse.is_sign_negative());
-            enter = ((corners[first][k] - self.from_near[k]) * inverse).max(enter);
-            leave = ((corners[1 - first][k] - self.from_far[k]) * inverse).min(leave);
+            enter = ((f64::from(corners[first][k]) - self.from_near[k]) * inverse).max(enter);
+            leave = ((f64::from(corners[1 - first][k]) - self.from_far[k]) * inverse).min(leave);
         }
         (enter <= leave * (1.0 + 4.0 * f64::EPSILON)).then_some(enter)
     }

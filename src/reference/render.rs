@@ -3,14 +3,17 @@
 use rayon::prelude::*;
 
 use super::camera;
-use super::color::{self, Rgb};
+use super::color::Rgb;
 use super::light::Lighting;
-use super::sampling::{Dimension, Strata};
+use super::sampling::{self, Dimension, Strata};
 use super::tracer::{Hit, Tracer};
 use super::{Estimate, Options, Progress, ReferenceError};
 use crate::frame::{Frame, Image, Pixels};
 use crate::interpreter::seed::Seed;
-use crate::plan::demand::{BACKGROUND, Output, OutputDemand, ViewDemand};
+use crate::plan::demand::{Output, OutputDemand, ViewDemand};
+use crate::plan::effects::Sensor;
+use crate::plan::finite::not_finite;
+use crate::sensor;
 
 /// The images of a view and, for each colour image, how sure it is.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,8 +33,11 @@ impl Tracer {
             let (pixels, estimate) = match output.output {
                 Output::Color => {
                     let estimate = self.color(view, output, options);
-                    let bytes = estimate.linear.iter().flat_map(|light| light.map(color::byte)).collect();
-                    (Pixels::Rgb8(bytes), Some(estimate))
+                    // The samples were spread already.
+                    let sensor = Sensor { psf: 0.0, ..output.look.sensor.unwrap_or(sensor::PLAIN) };
+                    let linear: Vec<[f32; 3]> = estimate.linear.iter().map(|light| light.map(|c| c as f32)).collect();
+                    let size = (view.camera.width, view.camera.height);
+                    (sensor::develop(&linear, size, &sensor), Some(estimate))
                 }
                 _ => (self.labels(view, output), None),
             };
@@ -43,12 +49,10 @@ impl Tracer {
     }
 
     fn color(&self, view: &ViewDemand, output: &OutputDemand, options: &Options) -> Estimate {
-        let lighting = Lighting {
-            sun: view.sun.filter(|sun| sun.direction.y > 0.0),
-            shadows: output.look.shadows,
-            ambient: output.look.ambient,
-            shown: &output.selection.objects,
-        };
+        let lighting = Lighting::new(view, output);
+        let spread = output.look.sensor.map_or(0.0, |sensor| sensor.psf);
+        let [sun, sky] = lighting.needs();
+        let used = [true, sun, sky, spread > 0.0];
         let seed = Seed::root(options.seed).named(&view.name);
         let (width, height) = (view.camera.width as usize, view.camera.height as usize);
         let mut sums = vec![Sum::default(); width * height];
@@ -57,9 +61,10 @@ impl Tracer {
             sums.par_chunks_mut(width.max(1)).enumerate().for_each(|(y, row)| {
                 for (x, sum) in row.iter_mut().enumerate() {
                     let key = seed.part((y as u64) << 32 | x as u64).part(u64::from(pass));
-                    let strata = Strata::new(key, side);
-                    sum.add(self.mean(view, &lighting, (x, y), &strata, side));
+                    let strata = Strata::new(key, side, used);
+                    sum.add(self.mean(view, &lighting, (x, y), &strata, (side * side, spread)));
                 }
+                (options.row)();
             });
             let error = (pass > 0).then(|| mean_error(&sums));
             let (passes, of) = (pass + 1, options.passes);
@@ -76,17 +81,26 @@ impl Tracer {
         }
     }
 
-    /// Mean of one pass's samples of a pixel.
-    fn mean(&self, view: &ViewDemand, light: &Lighting, pixel: (usize, usize), strata: &Strata, side: u32) -> Rgb {
-        let count = side * side;
+    /// Mean of one pass's samples of a pixel: their number, and the deviation of the point-spread function.
+    fn mean(
+        &self,
+        view: &ViewDemand,
+        light: &Lighting,
+        pixel: (usize, usize),
+        strata: &Strata,
+        (count, spread): (u32, f64),
+    ) -> Rgb {
         let mut sum = [0.0; 3];
         for sample in 0..count {
-            let [dx, dy] = strata.point(sample, Dimension::Pixel);
-            let ray = self.ray(camera::ray(&view.camera, pixel.0 as f64 + dx, pixel.1 as f64 + dy));
-            let radiance = match self.nearest(&ray, view.camera.near, light.shown) {
-                Some(hit) => light.radiance(self, &self.point(&hit, &ray), strata, sample),
-                None => BACKGROUND,
-            };
+            let [mut dx, mut dy] = strata.point(sample, Dimension::Pixel);
+            if spread > 0.0 {
+                let [aside, down] = sampling::normal(strata.point(sample, Dimension::Spread));
+                (dx, dy) = (dx + spread * aside, dy + spread * down);
+            }
+            let (eye, direction) = camera::ray(&view.camera, pixel.0 as f64 + dx, pixel.1 as f64 + dy);
+            let ray = self.ray((eye, direction));
+            let point = self.nearest(&ray, view.camera.near, light.shown).map(|hit| self.point(&hit, &ray));
+            let radiance = light.seen(self, eye, point.as_ref(), strata, sample);
             (0..3).for_each(|k| sum[k] += radiance[k]);
         }
         sum.map(|s| s / f64::from(count))
@@ -135,11 +149,8 @@ fn check(tracer: &Tracer, view: &ViewDemand, options: &Options) -> Result<(), Re
     if passes < 2 || !(1..=256).contains(&side) {
         return Err(ReferenceError::BadSampling { passes, side });
     }
-    let sun = view.sun.is_none_or(|sun| {
-        sun.direction.is_finite() && sun.disc_deg.is_finite() && sun.irradiance.iter().all(|c| c.is_finite())
-    });
-    if !camera::is_finite(&view.camera) || !sun {
-        return Err(ReferenceError::NotFiniteView(view.name.clone()));
+    if let Some(what) = not_finite(view) {
+        return Err(ReferenceError::NotFiniteView { view: view.name.clone(), what });
     }
     let flags = view.outputs.iter().flat_map(|o| [Some(&o.selection.objects), o.marked.as_ref()]).flatten();
     if flags.into_iter().any(|flags| flags.len() != tracer.objects.len()) {

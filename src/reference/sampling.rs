@@ -1,5 +1,5 @@
-//! Sampling: numbers keyed by view, pixel, pass and sample → stratified points in pixels, on the sun's disc and in the
-//! hemisphere. No number depends on another or on when it is drawn.
+//! Sampling: numbers keyed by view, pixel, pass and sample → stratified points in pixels, in the point-spread
+//! function, on the sun's disc and in the hemisphere. No number depends on another or on when it is drawn.
 
 use glam::DVec3;
 use smallvec::SmallVec;
@@ -12,19 +12,22 @@ pub enum Dimension {
     Pixel,
     Sun,
     Sky,
+    Spread,
 }
 
 /// `side × side` strata of one pass over one pixel. Each dimension visits all of them once, in an order of its own.
 pub struct Strata {
     seed: Seed,
     side: u32,
-    orders: [SmallVec<[u16; 64]>; 3],
+    orders: [SmallVec<[u16; 64]>; 4],
 }
 
 impl Strata {
-    /// `side` is at most 256.
-    pub fn new(seed: Seed, side: u32) -> Strata {
-        let orders = [0, 1, 2].map(|dimension| shuffled(seed.part(1 << 32 | dimension), side * side));
+    /// `side` is at most 256; only the dimensions of `used` may be asked for.
+    pub fn new(seed: Seed, side: u32, used: [bool; 4]) -> Strata {
+        let order =
+            |at: usize| if used[at] { shuffled(seed.part(1 << 32 | at as u64), side * side) } else { SmallVec::new() };
+        let orders = [0, 1, 2, 3].map(order);
         Strata { seed, side, orders }
     }
 
@@ -60,6 +63,13 @@ pub fn disc([x, y]: [f64; 2]) -> [f64; 2] {
         (b, std::f64::consts::FRAC_PI_2 - std::f64::consts::FRAC_PI_4 * (a / b))
     };
     let (sin, cos) = libm::sincos(angle);
+    [radius * cos, radius * sin]
+}
+
+/// The unit square onto the plane, normally distributed with deviation 1 (Box and Muller 1958).
+pub fn normal([x, y]: [f64; 2]) -> [f64; 2] {
+    let radius = (-2.0 * libm::log(1.0 - x)).sqrt();
+    let (sin, cos) = libm::sincos(std::f64::consts::TAU * y);
     [radius * cos, radius * sin]
 }
 

@@ -5,11 +5,12 @@ use std::sync::Arc;
 use glam::{DVec3, Vec2, Vec3};
 
 use super::ReferenceError;
-use super::color::{self, Rgb};
+use super::color::{self, Light, Rgb};
 use super::ray::{Crossing, Triangle};
-use crate::interpreter::material::MapTransform;
+use crate::interpreter::material::{MapTransform, Material};
 use crate::plan::pass::Surface;
-use crate::plan::summary::material_surfaces;
+use crate::plan::summary::{least_alpha, material_surfaces};
+use crate::scene::reflectance::near_infrared_gain;
 use crate::scene::{Scene, SceneClass, SceneObject};
 
 /// A triangle besides its corners.
@@ -25,18 +26,23 @@ pub struct Face {
 struct Coat {
     albedo: Rgb,
     texture: Option<usize>,
-    has_holes: bool,
+    /// Alpha under which a texel is a hole, where the texture has holes.
+    hole_below: Option<f64>,
     transform: MapTransform,
+    /// Near-infrared gain by class.
+    gains: [f64; CLASSES],
 }
 
-/// A texel of this alpha and above is there.
-const THERE: u8 = 128;
+/// Numbers of classes, and one for the 0 that is none.
+const CLASSES: usize = SceneClass::ALL.len() + 1;
 
 /// Materials, textures and the properties of objects.
 pub struct Surfaces {
     coats: Vec<Coat>,
     textures: Vec<Arc<image::RgbaImage>>,
     linear: [f64; 256],
+    /// Per object.
+    classes: Vec<SceneClass>,
     /// Per object: seen from both sides.
     two_sided: Vec<bool>,
     /// Per object: of faces in one place the lowest number is seen.
@@ -51,7 +57,7 @@ pub struct Point {
     pub normal: DVec3,
     /// Of the flat triangle.
     pub face_normal: DVec3,
-    pub albedo: Rgb,
+    pub albedo: Light,
 }
 
 impl Surfaces {
@@ -63,13 +69,15 @@ impl Surfaces {
                 .colormap
                 .as_ref()
                 .and_then(|name| scene.textures.binary_search_by(|(other, _)| other.cmp(name)).ok()),
-            has_holes: *kind == Some(Surface::Cutout),
+            hole_below: (*kind == Some(Surface::Cutout)).then(|| least_alpha(material)),
             transform: material.colormap_transform,
+            gains: gains(material),
         });
         Surfaces {
             coats: coats.collect(),
             textures: scene.textures.iter().map(|(_, texture)| texture.clone()).collect(),
             linear: color::table(),
+            classes: scene.objects.iter().map(|o| o.class).collect(),
             two_sided: scene.objects.iter().map(|o| o.class == SceneClass::Building).collect(),
             layer: scene.objects.iter().map(|o| layer(o.class)).collect(),
         }
@@ -83,7 +91,9 @@ impl Surfaces {
     /// Whether the face is a hole where the ray meets it.
     pub fn is_hole(&self, face: &Face, weights: [f64; 3]) -> bool {
         let coat = &self.coats[face.material as usize];
-        coat.has_holes && self.texel(coat, face, weights).is_some_and(|texel| texel[3] < THERE)
+        coat.hole_below.is_some_and(|least| {
+            self.texel(coat, face, weights).is_some_and(|texel| f64::from(texel[3]) < least * 255.0)
+        })
     }
 
     /// Texel under a point: the nearest, textures repeat, v runs up and rows run down.
@@ -114,8 +124,18 @@ impl Surfaces {
             Some(texel) => std::array::from_fn(|k| coat.albedo[k] * self.linear[usize::from(texel[k])]),
             None => coat.albedo,
         };
+        let gain = coat.gains[self.classes[face.object as usize] as usize];
+        let albedo = color::with_infrared(albedo, gain);
         Point { position: mixed(&|i| corners[i]), normal, face_normal, albedo }
     }
+}
+
+fn gains(material: &Material) -> [f64; CLASSES] {
+    let mut gains = [0.0; CLASSES];
+    for class in SceneClass::ALL {
+        gains[class as usize] = near_infrared_gain(class, material);
+    }
+    gains
 }
 
 /// Uppermost first: what lies on the ground covers it.

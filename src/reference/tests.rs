@@ -1,7 +1,9 @@
 //! The reference against closed forms, against itself, and against the wgpu renderer.
 
 mod agreement;
+mod agreement_effects;
 mod coverage;
+mod effects;
 mod estimates;
 mod intersection;
 mod shadow;

@@ -77,6 +77,11 @@ impl Tracer {
         shown[face.object as usize] && !self.surfaces.is_hole(face, crossing.weights)
     }
 
+    /// A place about the tracer's origin, in the world.
+    pub(super) fn in_world(&self, place: DVec3) -> DVec3 {
+        place + self.origin
+    }
+
     pub(super) fn object(&self, hit: &Hit) -> usize {
         self.faces[hit.face].object as usize
     }

@@ -23,7 +23,7 @@ enum Surface {
 /// Gain of the built-in textures that stand for one material.
 const TEXTURES: &[(&str, f64)] = &[
     ("builtin:grass", 3.3),
-    ("builtin:forest", 6.5),
+    ("builtin:forest", 9.0),
     ("builtin:meadow", 2.2),
     ("builtin:farmland", 1.5),
     ("builtin:ground", 1.5),
@@ -65,7 +65,9 @@ pub fn near_infrared_gain(class: SceneClass, material: &Material) -> f64 {
         Surface::Leaves if !texture.is_empty() => 4.0,
         Surface::Leaves => (CANOPY / luminance(material.color)).clamp(1.5, 8.0),
         Surface::DryPlants => 2.0,
-        Surface::Soil => 1.4,
+        Surface::Soil if !texture.is_empty() => 1.4,
+        // A little brighter than red.
+        Surface::Soil => (1.25 * linear(material.color[0]) / luminance(material.color)).clamp(1.2, 2.5),
         Surface::Water => 0.1,
         Surface::Mineral => 1.1,
     }
@@ -95,11 +97,15 @@ fn surface(class: SceneClass, material: &Material, texture: &str) -> Surface {
     }
 }
 
-/// Rec. 709, of an sRGB-encoded colour (IEC 61966-2-1).
+/// Of an sRGB-encoded channel (IEC 61966-2-1).
+fn linear(c: f64) -> f64 {
+    if c <= 0.04045 { c / 12.92 } else { libm::pow((c + 0.055) / 1.055, 2.4) }
+}
+
+/// Rec. 709, of an sRGB-encoded colour; black is taken for nearly black.
 fn luminance(color: [f64; 3]) -> f64 {
-    let linear = |c: f64| if c <= 0.04045 { c / 12.92 } else { libm::pow((c + 0.055) / 1.055, 2.4) };
     let [r, g, b] = color.map(linear);
-    0.2126 * r + 0.7152 * g + 0.0722 * b
+    (0.2126 * r + 0.7152 * g + 0.0722 * b).max(1e-3)
 }
 
 #[cfg(test)]
@@ -120,14 +126,7 @@ mod tests {
         }
         let count = texels.len() as f64;
         // The tint of a texture multiplies in linear light.
-        let tinted = |t: [f64; 3], c: usize| {
-            let mut alone = [0.0; 3];
-            alone[c] = t[c];
-            let mut tint = [0.0; 3];
-            tint[c] = color[c];
-            let weight = [0.2126, 0.7152, 0.0722][c];
-            luminance(alone) / weight * luminance(tint) / weight
-        };
+        let tinted = |t: [f64; 3], c: usize| linear(t[c]) * linear(color[c]);
         let red = texels.iter().map(|t| tinted(*t, 0)).sum::<f64>() / count;
         let light = |t: &[f64; 3]| 0.2126 * tinted(*t, 0) + 0.7152 * tinted(*t, 1) + 0.0722 * tinted(*t, 2);
         let infrared = texels.iter().map(|t| (gain * light(t)).min(0.95)).sum::<f64>() / count;

@@ -13,6 +13,17 @@ use crate::frame::Pixels;
 use crate::interpreter::seed::Seed;
 use crate::plan::effects::{Bands, BitDepth, Sensor};
 
+/// 8 bits of sRGB, nothing added and nothing lost.
+pub const PLAIN: Sensor = Sensor {
+    key: 0,
+    psf: 0.0,
+    exposure: 1.0,
+    read_noise: 0.0,
+    full_well: 0.0,
+    depth: BitDepth::Eight,
+    bands: Bands::Rgb,
+};
+
 /// Makes the image of `size` (columns, rows) from its linear pixels, rows from the top. Images of one band take the
 /// first of the three numbers. What is not a number becomes 0.
 pub fn develop(linear: &[[f32; 3]], size: (u32, u32), sensor: &Sensor) -> Pixels {

@@ -5,15 +5,7 @@ use crate::frame::Pixels;
 use crate::interpreter::seed::Seed;
 use crate::plan::effects::{Bands, BitDepth, NirLight, Sensor};
 
-const PLAIN: Sensor = Sensor {
-    key: 7,
-    psf: 0.0,
-    exposure: 1.0,
-    read_noise: 0.0,
-    full_well: 0.0,
-    depth: BitDepth::Sixteen,
-    bands: Bands::Rgb,
-};
+const PLAIN: Sensor = Sensor { key: 7, depth: BitDepth::Sixteen, ..super::PLAIN };
 
 const NIR: NirLight = NirLight { sun: 1.0, zenith: 0.1, ground: 0.1, extinction: 0.0, airlight: 0.0 };
 

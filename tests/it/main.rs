@@ -1,5 +1,6 @@
 //! Integration tests, one binary. In: the built program and the repository. Out: what a user would see, held.
 
+mod backend;
 mod bad_input;
 mod compatibility;
 mod cost;

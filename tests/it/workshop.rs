@@ -39,8 +39,14 @@ impl Workshop {
 
     /// Runs the program in the folder.
     pub fn run(&self, args: &[&str]) -> Run {
+        self.run_with(args, &[])
+    }
+
+    /// [`Workshop::run`] with variables of the environment.
+    pub fn run_with(&self, args: &[&str], variables: &[(&str, &str)]) -> Run {
         let output = Command::new(env!("CARGO_BIN_EXE_mansard"))
             .args(args)
+            .envs(variables.iter().copied())
             .current_dir(self.folder.path())
             .output()
             .expect("the program was built");

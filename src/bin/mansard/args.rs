@@ -82,6 +82,8 @@ pub enum Command {
         #[arg(long, value_name = "FILE")]
         reports: Option<PathBuf>,
         #[command(flatten)]
+        backend: BackendOptions,
+        #[command(flatten)]
         options: RecipeOptions,
         #[command(flatten)]
         work: WorkOptions,
@@ -166,6 +168,24 @@ pub struct WorkOptions {
     /// Threads; results do not depend on it
     #[arg(long, value_name = "N")]
     pub jobs: Option<usize>,
+}
+
+#[derive(Clone, Debug, Default, clap::Args)]
+pub struct BackendOptions {
+    /// Who draws; `wgpu` if there is an adapter, else `reference`
+    #[arg(long, value_enum)]
+    pub backend: Option<BackendName>,
+    /// Samples per pixel of the reference, at least; 32, or 8 where it stands in
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=65_536))]
+    pub samples: Option<u32>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum BackendName {
+    /// On a Vulkan, Metal or DirectX 12 adapter
+    Wgpu,
+    /// Rays on the CPU: exact visibility, noise that is told
+    Reference,
 }
 
 #[derive(Clone, Debug, clap::Args)]

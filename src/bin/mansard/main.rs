@@ -49,8 +49,8 @@ fn main() -> ExitCode {
             let checks = if validate { Checks::All } else { Checks::Off };
             build::run(&recipe, &output, reports.as_ref(), checks, &options, &work, &reporter)
         }
-        Command::Render { recipe, output, views, reports, options, work } => {
-            render::run(&recipe, &output, &views, reports.as_ref(), &options, &work, &reporter)
+        Command::Render { recipe, output, views, reports, backend, options, work } => {
+            render::run(&recipe, &output, &views, reports.as_ref(), &backend, &options, &work, &reporter)
         }
         Command::Plan { recipe, format, options, work } => plan::run(&recipe, format, &options, &work, &reporter),
         Command::Cost { recipe, output, measure, options, work } => {

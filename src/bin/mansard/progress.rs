@@ -90,12 +90,13 @@ impl Progress for Reporter {
             running.said = Instant::now();
             let elapsed = running.started.elapsed().as_secs_f64();
             let rate = running.done as f64 / elapsed;
+            let digits = usize::from(rate < 10.0);
             match running.total.filter(|_| rate > 0.0) {
                 Some(total) => {
                     let left = total.saturating_sub(running.done) as f64 / rate;
-                    eprintln!("{:>10} {}/{total}, {rate:.0}/s, {left:.0} s left", running.name, running.done);
+                    eprintln!("{:>10} {}/{total}, {rate:.digits$}/s, {left:.0} s left", running.name, running.done);
                 }
-                None => eprintln!("{:>10} {}, {rate:.0}/s", running.name, running.done),
+                None => eprintln!("{:>10} {}, {rate:.digits$}/s", running.name, running.done),
             }
         }
     }
@@ -105,5 +106,9 @@ impl Progress for Reporter {
         running.bar.finish_and_clear();
         let seconds = running.started.elapsed().as_secs_f64();
         self.say(&format!("{:>10} {summary} ({seconds:.2} s)", running.name));
+    }
+
+    fn warn(&self, message: &str) {
+        self.say(&format!("warning: {message}"));
     }
 }

@@ -2,10 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use mansard::pipeline::{RenderOptions, render_dataset};
+use mansard::pipeline::{BackendChoice, RenderOptions, render_dataset};
 use mansard::source::SourceMap;
 
-use crate::args::{RecipeOptions, WorkOptions};
+use crate::args::{BackendName, BackendOptions, RecipeOptions, WorkOptions};
 use crate::build::{load, tell, use_threads};
 use crate::progress::Reporter;
 use crate::report::{self, Failure};
@@ -16,6 +16,7 @@ pub fn run(
     output: &Path,
     views: &[String],
     reports_file: Option<&PathBuf>,
+    backend: &BackendOptions,
     options: &RecipeOptions,
     work: &WorkOptions,
     reporter: &Reporter,
@@ -24,7 +25,13 @@ pub fn run(
     use_threads(work)?;
     let mut sources = SourceMap::default();
     let recipe = load(path, options, &mut sources, reporter.is_quiet())?;
-    let options = RenderOptions { output: output.to_owned(), views: views.to_vec() };
+    let choice = match backend.backend {
+        None => BackendChoice::Any,
+        Some(BackendName::Wgpu) => BackendChoice::Gpu,
+        Some(BackendName::Reference) => BackendChoice::Reference,
+    };
+    let (output, views) = (output.to_owned(), views.to_vec());
+    let options = RenderOptions { output, views, backend: choice, samples: backend.samples };
     let failed = std::cell::Cell::new(false);
     let all_reports = std::cell::RefCell::new(Vec::new());
     let told = |built: &mansard::pipeline::BuiltScene| {
@@ -39,7 +46,7 @@ pub fn run(
         summary.images,
         summary.views,
         summary.other_files.join(", "),
-        output.display()
+        options.output.display()
     ));
     if failed.get() { Err(Failure::said()) } else { Ok(()) }
 }

@@ -10,7 +10,7 @@ use crate::plan::resource::Format;
 
 pub fn pipeline(gpu: &Gpu, layouts: &Layouts, module: &wgpu::ShaderModule, first: bool) -> wgpu::RenderPipeline {
     let label = PipelineKey::ShadowBounds { first }.name();
-    let layout = if first { &layouts.first_bounds } else { &layouts.halved_bounds };
+    let layout = if first { &layouts.first_bounds } else { &layouts.coarse_bounds };
     gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some(&label),
         layout: Some(&pipeline_layout(gpu, &label, &[layout])),
@@ -25,7 +25,7 @@ pub fn pipeline(gpu: &Gpu, layouts: &Layouts, module: &wgpu::ShaderModule, first
         multisample: Default::default(),
         fragment: Some(wgpu::FragmentState {
             module,
-            entry_point: Some(if first { "fs_first" } else { "fs_halve" }),
+            entry_point: Some(if first { "fs_first" } else { "fs_coarse" }),
             compilation_options: Default::default(),
             targets: &[Some(texture_format(Format::Bounds32).into())],
         }),
@@ -47,24 +47,19 @@ pub fn encode(
     gpu: &Gpu,
     pipelines: &Pipelines,
     light: &LightFrame,
-    (map, bounds): (&Target, &Target),
+    (map, fine, coarse): (&Target, &Target, &Target),
 ) {
     let layouts = &pipelines.layouts;
     let uniform = gpu.uniform("shadow bounds", &height_row(light).map(|c| c as f32));
-    for level in 0..bounds.texture.mip_level_count() {
-        let first = level == 0;
-        let finer = (!first).then(|| bounds.level(level - 1));
-        let entry = |binding, resource| wgpu::BindGroupEntry { binding, resource };
-        let entries = match &finer {
-            None => {
-                vec![entry(0, uniform.as_entire_binding()), entry(1, wgpu::BindingResource::TextureView(&map.view))]
-            }
-            Some(finer) => vec![entry(2, wgpu::BindingResource::TextureView(finer))],
-        };
-        let layout = if first { &layouts.first_bounds } else { &layouts.halved_bounds };
-        let descriptor = wgpu::BindGroupDescriptor { label: Some("shadow bounds"), layout, entries: &entries };
+    let entry = |binding, resource| wgpu::BindGroupEntry { binding, resource };
+    let of_map = [entry(0, uniform.as_entire_binding()), entry(1, wgpu::BindingResource::TextureView(&map.view))];
+    let of_blocks = [entry(2, wgpu::BindingResource::TextureView(&fine.view))];
+    let steps =
+        [(true, &layouts.first_bounds, &of_map[..], fine), (false, &layouts.coarse_bounds, &of_blocks[..], coarse)];
+    for (first, layout, entries, target) in steps {
+        let descriptor = wgpu::BindGroupDescriptor { label: Some("shadow bounds"), layout, entries };
         let group = gpu.device.create_bind_group(&descriptor);
-        let mut pass = recorder.begin("shadow_bounds", Some((&bounds.level(level), wgpu::Color::BLACK)), None);
+        let mut pass = recorder.begin("shadow_bounds", Some((&target.view, wgpu::Color::BLACK)), None);
         pass.set_pipeline(pipelines.get(PipelineKey::ShadowBounds { first }));
         pass.set_bind_group(0, &group, &[]);
         pass.draw(0..3, 0..1);

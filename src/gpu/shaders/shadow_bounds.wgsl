@@ -1,4 +1,5 @@
-// Shadow bounds: greatest and least height of the points in each block of a shadow map; then of 2 × 2 blocks.
+// Shadow bounds: greatest and least height of the points in each block of a shadow map; then of blocks of 2, 4, 8 ...
+// blocks per side, side by side from the left in one map.
 
 struct Blocks {
     // Height of a point of the map: texel column, texel row, depth (1 nearest to the sun), constant.
@@ -10,6 +11,8 @@ struct Blocks {
 @group(0) @binding(2) var finer: texture_2d<f32>;
 
 const BLOCK: i32 = 8;
+// Of blocks of blocks.
+const LEVELS: u32 = 6u;
 // Of what is not there.
 const NOWHERE: f32 = -1e9;
 
@@ -37,11 +40,24 @@ fn fs_first(@builtin(position) position: vec4<f32>) -> @location(0) vec2<f32> {
 }
 
 @fragment
-fn fs_halve(@builtin(position) position: vec4<f32>) -> @location(0) vec2<f32> {
-    let first = vec2<i32>(position.xy) * 2;
-    let a = textureLoad(finer, first, 0).xy;
-    let b = textureLoad(finer, first + vec2<i32>(1, 0), 0).xy;
-    let c = textureLoad(finer, first + vec2<i32>(0, 1), 0).xy;
-    let d = textureLoad(finer, first + vec2<i32>(1, 1), 0).xy;
-    return vec2<f32>(max(max(a.x, b.x), max(c.x, d.x)), min(min(a.y, b.y), min(c.y, d.y)));
+fn fs_coarse(@builtin(position) position: vec4<f32>) -> @location(0) vec2<f32> {
+    let at = vec2<i32>(position.xy);
+    let side = i32(textureDimensions(finer).x);
+    var level = 1u;
+    while level < LEVELS && at.x >= side - (side >> level) {
+        level++;
+    }
+    let count = 1 << level;
+    let first = vec2<i32>(at.x - (side - 2 * (side >> level)), at.y) * count;
+    var bounds = vec2<f32>(NOWHERE, -NOWHERE);
+    if first.x >= side || first.y >= side {
+        return bounds;
+    }
+    for (var j = 0; j < count; j++) {
+        for (var i = 0; i < count; i++) {
+            let found = textureLoad(finer, first + vec2<i32>(i, j), 0).xy;
+            bounds = vec2<f32>(max(bounds.x, found.x), min(bounds.y, found.y));
+        }
+    }
+    return bounds;
 }

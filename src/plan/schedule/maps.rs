@@ -21,7 +21,8 @@ pub const BLOCK: u32 = 8;
 #[derive(Default)]
 pub struct Maps {
     shadow: Option<(DrawSet, LightFrame, ResourceId)>,
-    bounds: Option<(ResourceId, ResourceId)>,
+    /// Of which map, fine and coarse.
+    bounds: Option<(ResourceId, [ResourceId; 2])>,
     sky: Option<(DrawSet, SkyLook)>,
     fields: [Option<(Field, FieldLook)>; 3],
 }
@@ -92,12 +93,10 @@ impl ViewScheduler<'_> {
             self.skip("bounds of the shadow map", "no soft shadows");
             return Some(ShadowLook { frame, map, soft: None });
         }
-        let blocks = match maps.bounds.filter(|(of, _)| *of == map) {
-            Some((_, id)) => id,
-            None => self.shadow_bounds(frame, map),
-        };
-        maps.bounds = Some((map, blocks));
-        let soft = SoftLook { bounds: blocks, samples: self.soft_samples(), top: bounds.1.y };
+        let made = maps.bounds.filter(|(of, _)| *of == map);
+        let [fine, coarse] = made.map_or_else(|| self.shadow_bounds(frame, map), |(_, blocks)| blocks);
+        maps.bounds = Some((map, [fine, coarse]));
+        let soft = SoftLook { bounds: fine, coarse, samples: self.soft_samples(), top: bounds.1.y };
         Some(ShadowLook { frame, map, soft: Some(soft) })
     }
 
@@ -108,18 +107,19 @@ impl ViewScheduler<'_> {
     fn draw_shadow_map(&mut self, draw: &DrawSet, light: LightFrame) -> ResourceId {
         let id = self.resource("shadow_map", Format::Depth32, (light.size, light.size), 1, false);
         let pipelines = self.cutouts(draw, |cutout| PipelineKey::ShadowMap { cutout });
-        self.once(PassKind::ShadowMap { draw: draw.clone(), light }, vec![], id, pipelines);
+        self.once(PassKind::ShadowMap { draw: draw.clone(), light }, vec![], &[id], pipelines);
         id
     }
 
     /// Blocks per side are a power of two, so that halving them loses none.
-    fn shadow_bounds(&mut self, light: LightFrame, map: ResourceId) -> ResourceId {
-        let blocks = light.size.div_ceil(BLOCK).next_power_of_two();
-        let id = self.resource("shadow_bounds", Format::Bounds32, (blocks, blocks), 1, false);
-        let halved = (blocks > 1).then_some(PipelineKey::ShadowBounds { first: false });
-        let pipelines = std::iter::once(PipelineKey::ShadowBounds { first: true }).chain(halved).collect();
-        self.once(PassKind::ShadowBounds { light }, vec![map], id, pipelines);
-        id
+    fn shadow_bounds(&mut self, light: LightFrame, map: ResourceId) -> [ResourceId; 2] {
+        let blocks = light.size.div_ceil(BLOCK).next_power_of_two().max(2);
+        let fine = self.texture("shadow_bounds", map_texture(Format::Bounds32, blocks));
+        let coarse = TextureKey { height: blocks / 2, number: 1, ..map_texture(Format::Bounds32, blocks) };
+        let coarse = self.texture("shadow_bounds", coarse);
+        let pipelines = [true, false].map(|first| PipelineKey::ShadowBounds { first }).to_vec();
+        self.once(PassKind::ShadowBounds { light }, vec![map], &[fine, coarse], pipelines);
+        [fine, coarse]
     }
 
     fn sky(&mut self, shading: &Shading, maps: &mut Maps) -> Option<SkyLook> {
@@ -147,7 +147,7 @@ impl ViewScheduler<'_> {
         let texture = TextureKey { layers: count, ..map_texture(Format::Depth32, size) };
         let id = self.texture("sky_maps", texture);
         let pipelines = self.cutouts(&shading.draw, |cutout| PipelineKey::ShadowMap { cutout });
-        self.once(PassKind::SkyMaps { draw: shading.draw.clone(), frames: frames.clone() }, vec![], id, pipelines);
+        self.once(PassKind::SkyMaps { draw: shading.draw.clone(), frames: frames.clone() }, vec![], &[id], pipelines);
         let look = SkyLook { maps: id, frames, subsets };
         maps.sky = Some((shading.draw.clone(), look.clone()));
         Some(look)
@@ -224,7 +224,7 @@ impl ViewScheduler<'_> {
         let map = self.texture(field.stem(), texture);
         let look = FieldLook { frame, map };
         maps.fields[which as usize] = Some((field.clone(), look));
-        self.once(PassKind::Field { field: Box::new(field), frame }, vec![], map, vec![]);
+        self.once(PassKind::Field { field: Box::new(field), frame }, vec![], &[map], vec![]);
         Some(look)
     }
 
@@ -235,8 +235,8 @@ impl ViewScheduler<'_> {
     }
 
     /// A stage of one pass that is not repeated per tile.
-    fn once(&mut self, kind: PassKind, reads: Vec<ResourceId>, write: ResourceId, pipelines: Vec<PipelineKey>) {
-        let pass = Pass { kind, reads, writes: vec![write], pipelines };
+    fn once(&mut self, kind: PassKind, reads: Vec<ResourceId>, writes: &[ResourceId], pipelines: Vec<PipelineKey>) {
+        let pass = Pass { kind, reads, writes: writes.to_vec(), pipelines };
         self.plan.stages.push(Stage { tiled: false, passes: vec![pass], products: vec![] });
     }
 }

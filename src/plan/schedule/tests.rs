@@ -73,8 +73,8 @@ fn before_and_after_have_a_shadow_map_each_in_one_texture() {
     let outputs = vec![output(Output::Color, State::Before), output(Output::Color, State::After)];
     let plan = schedule(&[view(outputs)], &objects());
     assert_eq!(stems(&plan), ["shadow_map", "shadow_bounds", "shade", "resolve"].repeat(2));
-    // shadow map, its bounds, radiance, its depth, colour; shadow_map, two for bounds, plain, textured, resolve.
-    assert_eq!(plan.counts(), Counts { passes: 8, textures: 5, pipelines: 6 });
+    // shadow map, its bounds, fine and coarse, radiance, its depth, colour; shadow_map, two for bounds, plain, textured, resolve.
+    assert_eq!(plan.counts(), Counts { passes: 8, textures: 6, pipelines: 6 });
     let lights: Vec<_> = plan.views[0]
         .passes()
         .filter_map(|p| if let PassKind::ShadowMap { light, .. } = &p.kind { Some(*light) } else { None })
@@ -132,7 +132,7 @@ fn dumps_name_every_pass() {
     let outputs = [Output::Color, Output::Mask].map(|o| output(o, State::After)).to_vec();
     let plan = schedule(&[view(outputs)], &objects());
     let (text, dot, json) = (dump::text(&plan), dump::dot(&plan), dump::json(&plan));
-    assert!(text.contains("1 views, 5 passes, 7 render targets"), "{text}");
+    assert!(text.contains("1 views, 5 passes, 8 render targets"), "{text}");
     for stem in ["shadow_map", "shadow_bounds", "shade", "resolve", "ids"] {
         assert!(text.contains(stem) && dot.contains(stem), "{stem}");
     }

@@ -135,7 +135,7 @@ fn numbers_that_are_not_finite_are_refused() {
     let tracer = Tracer::new(&scene).expect("finite");
     demand.camera.position.x = f64::INFINITY;
     let refused = tracer.render(&demand, &Options::default());
-    assert!(matches!(refused, Err(ReferenceError::NotFiniteView(_))), "{refused:?}");
+    assert!(matches!(refused, Err(ReferenceError::NotFiniteView { what: "the camera", .. })), "{refused:?}");
     scene.objects[1].mesh.positions[2].y = f64::NAN;
     let refused = Tracer::new(&scene).err();
     let expected = |e: &ReferenceError| matches!(e, ReferenceError::NotFinite { object: 1, vertex: 2, .. });

@@ -20,7 +20,7 @@ use crate::geodata::greenery::Greenery;
 use crate::interpreter::material::Material;
 use crate::interpreter::seed::Seed;
 
-pub use obstacles::Obstacles;
+pub use obstacles::{Obstacles, Sites};
 
 /// One plant.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -55,11 +55,11 @@ pub struct Planted {
 pub fn plant(
     scene: &mut Scene,
     greenery: &Greenery,
-    obstacles: &Obstacles,
+    sites: &Sites,
     height: &(dyn Fn(DVec2) -> Option<f64> + Sync),
     seed: Seed,
 ) -> Planted {
-    let groups = placing::groups(greenery, obstacles, seed.named("vegetation"));
+    let groups = placing::groups(greenery, sites, seed.named("vegetation"));
     let meshes: Vec<_> = groups.par_iter().map(|group| mesh(&group.plants, height)).collect();
     let mut planted = Planted::default();
     let mut instance = scene.objects.last().map_or(1, |object| object.instance);

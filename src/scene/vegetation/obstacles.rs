@@ -9,6 +9,21 @@ use crate::geometry::Polygon;
 /// Metres of a cell of the index.
 const CELL: f64 = 32.0;
 
+/// What is in the way of plants.
+#[derive(Clone, Debug, Default)]
+pub struct Sites {
+    /// Buildings and water: nothing grows there.
+    pub taken: Obstacles,
+    /// Roads and squares: what is not mapped as a tree or a row of trees keeps clear of them.
+    pub paved: Obstacles,
+}
+
+impl Sites {
+    pub fn is_free(&self, at: DVec2, clearance: f64) -> bool {
+        self.taken.is_free(at, clearance) && self.paved.is_free(at, clearance)
+    }
+}
+
 /// Polygons in cells of the plan.
 #[derive(Clone, Debug, Default)]
 pub struct Obstacles {

@@ -3,7 +3,7 @@
 
 use glam::DVec2;
 
-use super::obstacles::Obstacles;
+use super::obstacles::Sites;
 use super::{Form, Plant};
 use crate::geodata::feature::{FeatureId, ObjectKind, Tags};
 use crate::geodata::greenery::{Greenery, Row, RowKind, SinglePlant, Stand, StandKind};
@@ -19,10 +19,10 @@ pub struct Group {
 }
 
 /// One group per map object, in the order of the lists.
-pub fn groups(greenery: &Greenery, obstacles: &Obstacles, seed: Seed) -> Vec<Group> {
-    let single = greenery.single.iter().map(|plant| alone(plant, obstacles, of(seed, plant.id)));
-    let rows = greenery.rows.iter().map(|row| along(row, obstacles, of(seed, row.id)));
-    let stands = greenery.stands.iter().map(|stand| within(stand, obstacles, of(seed, stand.id)));
+pub fn groups(greenery: &Greenery, sites: &Sites, seed: Seed) -> Vec<Group> {
+    let single = greenery.single.iter().map(|plant| alone(plant, sites, of(seed, plant.id)));
+    let rows = greenery.rows.iter().map(|row| along(row, sites, of(seed, row.id)));
+    let stands = greenery.stands.iter().map(|stand| within(stand, sites, of(seed, stand.id)));
     single.chain(rows).chain(stands).collect()
 }
 
@@ -37,9 +37,9 @@ fn of(seed: Seed, id: FeatureId) -> Seed {
     seed.part(kind).part(id.id as u64)
 }
 
-/// A tree of the map stands where it is mapped, if that is not inside a building.
-fn alone(plant: &SinglePlant, obstacles: &Obstacles, seed: Seed) -> Group {
-    let is_free = obstacles.is_free(plant.at, 0.0);
+/// A tree of the map stands where it is mapped, in the middle of a square too, if that is not inside a building.
+fn alone(plant: &SinglePlant, sites: &Sites, seed: Seed) -> Group {
+    let is_free = sites.taken.is_free(plant.at, 0.0);
     let form = if plant.tags.get("natural").is_some_and(|value| first(value) == "shrub") {
         Form::Bush
     } else {
@@ -48,7 +48,7 @@ fn alone(plant: &SinglePlant, obstacles: &Obstacles, seed: Seed) -> Group {
     Group {
         id: plant.id,
         plants: if is_free { vec![grown(plant.at, form, &plant.tags, seed)] } else { Vec::new() },
-        why_bare: Some("it stands in a building, on a road or in water".to_owned()),
+        why_bare: Some("it stands in a building or in water".to_owned()),
     }
 }
 
@@ -60,7 +60,7 @@ fn spacing(kind: RowKind) -> f64 {
     }
 }
 
-fn along(row: &Row, obstacles: &Obstacles, seed: Seed) -> Group {
+fn along(row: &Row, sites: &Sites, seed: Seed) -> Group {
     let spacing = spacing(row.kind);
     let mut plants = Vec::new();
     let mut until_next = spacing / 2.0;
@@ -70,7 +70,11 @@ fn along(row: &Row, obstacles: &Obstacles, seed: Seed) -> Group {
         let mut here = until_next;
         while here < length {
             let (at, seed) = (pair[0] + (pair[1] - pair[0]) * (here / length), seed.part(number));
-            if obstacles.is_free(at, 0.0) {
+            let is_free = match row.kind {
+                RowKind::Trees => sites.taken.is_free(at, 0.0),
+                RowKind::Hedge => sites.is_free(at, 0.0),
+            };
+            if is_free {
                 let form = if row.kind == RowKind::Hedge { Form::Bush } else { form(&row.tags, 0.1, seed) };
                 plants.push(grown(at, form, &row.tags, seed));
             }
@@ -94,7 +98,7 @@ fn density(kind: StandKind) -> (f64, f64, f64, f64, f64) {
     }
 }
 
-fn within(stand: &Stand, obstacles: &Obstacles, seed: Seed) -> Group {
+fn within(stand: &Stand, sites: &Sites, seed: Seed) -> Group {
     let (cell, trees, bushes, conifers, jitter) = density(stand.kind);
     let mut plants = Vec::new();
     if let Some((low, high)) = stand.outline.bounds() {
@@ -113,7 +117,7 @@ fn within(stand: &Stand, obstacles: &Obstacles, seed: Seed) -> Group {
                     continue;
                 };
                 let plant = grown(at, form, &Tags::new(), seed);
-                if stand.outline.contains(at) && obstacles.is_free(at, 0.6 * plant.crown) {
+                if stand.outline.contains(at) && sites.is_free(at, 0.6 * plant.crown) {
                     plants.push(plant);
                 }
             }

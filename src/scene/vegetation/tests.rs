@@ -21,19 +21,23 @@ fn wood(outline: Polygon) -> Greenery {
     Greenery { stands: vec![stand], ..Greenery::default() }
 }
 
-fn plants(greenery: &Greenery, obstacles: &Obstacles) -> Vec<Plant> {
-    placing::groups(greenery, obstacles, Seed::root(3)).into_iter().flat_map(|group| group.plants).collect()
+fn taken(polygons: Vec<Polygon>) -> Sites {
+    Sites { taken: Obstacles::new(polygons), ..Sites::default() }
+}
+
+fn plants(greenery: &Greenery, sites: &Sites) -> Vec<Plant> {
+    placing::groups(greenery, sites, Seed::root(3)).into_iter().flat_map(|group| group.plants).collect()
 }
 
 #[test]
 fn a_wood_is_full_of_trees_that_keep_clear_of_a_house() {
-    let obstacles = Obstacles::new(vec![square(30.0, 50.0)]);
-    let plants = plants(&wood(square(0.0, 100.0)), &obstacles);
+    let sites = taken(vec![square(30.0, 50.0)]);
+    let plants = plants(&wood(square(0.0, 100.0)), &sites);
     let trees = plants.iter().filter(|p| p.form != Form::Bush).count();
     assert!((150..260).contains(&trees), "{trees} trees on 0.96 ha");
     for plant in &plants {
         let outside = (plant.at - DVec2::splat(40.0)).abs().max_element() - 10.0;
-        assert!(outside > 0.0 && obstacles.is_free(plant.at, 0.6 * plant.crown), "{plant:?} in the house");
+        assert!(outside > 0.0 && sites.is_free(plant.at, 0.6 * plant.crown), "{plant:?} in the house");
     }
     let nearest = |i: usize| (0..i).map(|j| (plants[i].at - plants[j].at).length()).fold(f64::INFINITY, f64::min);
     let closest = (1..plants.len()).map(nearest).fold(f64::INFINITY, f64::min);
@@ -42,8 +46,8 @@ fn a_wood_is_full_of_trees_that_keep_clear_of_a_house() {
 
 #[test]
 fn cutting_the_area_moves_no_tree() {
-    let all = plants(&wood(square(0.0, 100.0)), &Obstacles::default());
-    let half = plants(&wood(square(0.0, 50.0)), &Obstacles::default());
+    let all = plants(&wood(square(0.0, 100.0)), &Sites::default());
+    let half = plants(&wood(square(0.0, 50.0)), &Sites::default());
     assert!(!half.is_empty() && half.iter().all(|plant| all.contains(plant)));
 }
 
@@ -55,10 +59,11 @@ fn mapped_trees_have_their_place_and_size() {
     greenery.single.push(SinglePlant { id: id(1), at: DVec2::new(3.0, 4.0), tags: tall });
     greenery.single.push(SinglePlant { id: id(2), at: DVec2::new(12.0, 12.0), tags: Tags::new() });
     let mut scene = Scene::default();
-    let obstacles = Obstacles::new(vec![square(10.0, 20.0)]);
-    let planted = plant(&mut scene, &greenery, &obstacles, &|_| Some(100.0), Seed::root(0));
+    let paved = Obstacles::new(vec![square(0.0, 6.0)]);
+    let sites = Sites { paved, ..taken(vec![square(10.0, 20.0)]) };
+    let planted = plant(&mut scene, &greenery, &sites, &|_| Some(100.0), Seed::root(0));
     assert_eq!(planted.grown, [(id(1), 1)]);
-    assert_eq!(planted.bare, [(id(2), "it stands in a building, on a road or in water".to_owned())]);
+    assert_eq!(planted.bare, [(id(2), "it stands in a building or in water".to_owned())]);
     let mesh = &scene.objects[0].mesh;
     let top = mesh.positions.iter().map(|p| p.y).fold(0.0, f64::max);
     assert!((top - 121.0).abs() < 1e-9, "{top}");
@@ -71,7 +76,7 @@ fn hedges_and_rows_follow_their_line() {
     let line = vec![DVec2::ZERO, DVec2::new(40.0, 0.0), DVec2::new(40.0, 40.0)];
     let row = |number, kind| Row { id: id(number), kind, line: line.clone(), tags: Tags::new() };
     let greenery = Greenery { rows: vec![row(1, RowKind::Trees), row(2, RowKind::Hedge)], ..Greenery::default() };
-    let groups = placing::groups(&greenery, &Obstacles::default(), Seed::root(3));
+    let groups = placing::groups(&greenery, &Sites::default(), Seed::root(3));
     assert_eq!(groups.iter().map(|g| g.plants.len()).collect::<Vec<_>>(), [10, 89]);
     assert!(groups[1].plants.iter().all(|p| p.form == Form::Bush && (p.at.y == 0.0 || p.at.x == 40.0)));
 }
@@ -79,7 +84,7 @@ fn hedges_and_rows_follow_their_line() {
 #[test]
 fn what_stands_on_unknown_ground_is_told() {
     let mut scene = Scene::default();
-    let planted = plant(&mut scene, &wood(square(0.0, 30.0)), &Obstacles::default(), &|_| None, Seed::root(0));
+    let planted = plant(&mut scene, &wood(square(0.0, 30.0)), &Sites::default(), &|_| None, Seed::root(0));
     assert!(scene.objects.is_empty() && planted.grown.is_empty() && planted.bare.len() == 1);
 }
 

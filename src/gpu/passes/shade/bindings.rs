@@ -42,6 +42,7 @@ fn entries(terms: Terms) -> Vec<wgpu::BindGroupLayoutEntry> {
         (shadow, 4, fragment, gathers),
         (soft, 5, both, uniform),
         (soft, 6, fragment, flat(Texel::Float { filterable: false })),
+        (soft, 18, fragment, flat(Texel::Float { filterable: false })),
         (terms.occluded_sky, 7, fragment, storage),
         (terms.occluded_sky, 8, fragment, sky_maps),
         (terms.occluded_sky, 9, fragment, gathers),
@@ -111,7 +112,7 @@ fn bound<'a>(gpu: &Gpu, layouts: &'a Layouts, lit: &Lit) -> Vec<(u32, Bound<'a>)
         if let Some(soft) = &shadow.soft {
             let disc = light.sun.map_or(0.0, |sun| sun.disc_deg);
             let uniform = gpu.uniform("disc", &DiscUniform::new(origin, &shadow.frame, soft, disc));
-            bound.extend([(5, Bound::Buffer(uniform)), (6, view(soft.bounds))]);
+            bound.extend([(5, Bound::Buffer(uniform)), (6, view(soft.bounds)), (18, view(soft.coarse))]);
         }
     }
     if let Some(look) = &light.sky {

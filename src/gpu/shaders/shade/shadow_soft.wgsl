@@ -17,27 +17,39 @@ struct Disc {
 };
 
 @group(1) @binding(5) var<uniform> disc: Disc;
-// Greatest and least height of the points in each block of the map, and of blocks of blocks.
+// Greatest and least height of the points in each block of the map, and in blocks of blocks.
 @group(1) @binding(6) var bounds_map: texture_2d<f32>;
+@group(1) @binding(18) var coarse_map: texture_2d<f32>;
 
 const BLOCK: f32 = 8.0;
+// Of blocks of blocks in the coarse map.
+const LEVELS: u32 = 6u;
 // Casters nearer than this share of the fade's depth leave all light.
 const CONTACT: f32 = 0.5;
+
+fn block(at: vec2<i32>, level: u32, side: i32) -> vec2<f32> {
+    let size = side >> level;
+    let within = clamp(at, vec2<i32>(0), vec2<i32>(size - 1));
+    if level == 0u {
+        return textureLoad(bounds_map, within, 0).xy;
+    }
+    return textureLoad(coarse_map, within + vec2<i32>(side - 2 * size, 0), 0).xy;
+}
 
 // Bounds of all within `radius` texels of `center`: 2 × 2 blocks of the size that covers them.
 fn height_bounds(center: vec2<f32>, radius: vec2<f32>) -> vec2<f32> {
     let reach = radius + 1.5;
-    let blocks = 2.0 * max(reach.x, reach.y) / BLOCK;
-    let levels = i32(textureNumLevels(bounds_map));
-    let level = clamp(i32(ceil(log2(blocks))), 0, levels - 1);
-    let last = vec2<i32>(textureDimensions(bounds_map, level)) - 1;
-    let first = vec2<i32>(floor((center - reach) / (BLOCK * exp2(f32(level)))));
-    let low = clamp(first, vec2<i32>(0), last);
-    let high = clamp(first + 1, vec2<i32>(0), last);
-    let a = textureLoad(bounds_map, low, level).xy;
-    let b = textureLoad(bounds_map, vec2<i32>(high.x, low.y), level).xy;
-    let c = textureLoad(bounds_map, vec2<i32>(low.x, high.y), level).xy;
-    let d = textureLoad(bounds_map, high, level).xy;
+    let side = i32(textureDimensions(bounds_map).x);
+    let wanted = max(0.0, ceil(log2(2.0 * max(reach.x, reach.y) / BLOCK)));
+    if wanted > f32(LEVELS) || side >> u32(wanted) == 0 {
+        return vec2<f32>(disc.top, -1e9);
+    }
+    let level = u32(wanted);
+    let first = vec2<i32>(floor((center - reach) / (BLOCK * exp2(wanted))));
+    let a = block(first, level, side);
+    let b = block(first + vec2<i32>(1, 0), level, side);
+    let c = block(first + vec2<i32>(0, 1), level, side);
+    let d = block(first + 1, level, side);
     return vec2<f32>(max(max(a.x, b.x), max(c.x, d.x)), min(min(a.y, b.y), min(c.y, d.y)));
 }
 

@@ -5,6 +5,7 @@ mod bands;
 mod ground;
 mod penumbra;
 mod sky;
+mod speed;
 
 use glam::DVec3;
 
