@@ -39,7 +39,7 @@ fn finer_settings_err_less() {
     let coarse_map = errors(&|q| q.shadow_map = 256);
     assert!(fine.light < 0.01 && fine.light * 3.0 < one_sample.light, "{fine:?} {one_sample:?}");
     let edges = [fine, one_sample].map(|e| e.edge.expect("houses have edges"));
-    assert!(edges[0] < 0.1 && edges[1] > 0.15 && edges[1] < 0.5, "{edges:?}");
+    assert!(edges[0] * 2.0 < edges[1] && edges[1] > 0.15 && edges[1] < 0.6, "{edges:?}");
     assert!(fine.shadow.expect("shadows") < 0.03 && coarse_map.shadow > fine.shadow, "{fine:?} {coarse_map:?}");
     assert!(coarse_map.edge == fine.edge, "shadows move no edges");
     assert!(fine.label < 0.01 && fine.label == one_sample.label && fine.height == Some(0.5));

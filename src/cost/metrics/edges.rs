@@ -9,10 +9,10 @@
 //! row, which the true image's gradient gives.
 //!
 //! Only clean edges are judged: the labels are the same for three pixels on both sides in three rows, the light on each
-//! side is even, and the contrast is at least [`CONTRAST`].
+//! side is even and, beyond the reach of a shift, the same in both images, and the contrast is at least [`CONTRAST`].
 
 /// Least difference in light, of white, between the two sides.
-const CONTRAST: f32 = 0.04;
+const CONTRAST: f32 = 0.08;
 /// Greatest difference within one side, of the contrast.
 const EVEN: f32 = 0.05;
 
@@ -85,7 +85,10 @@ fn displacement(scene: &Scene, place: usize, (step, across): (usize, usize)) -> 
     let (left, right) = (truth[place - step], truth[place + 2 * step]);
     let contrast = left - right;
     let uneven = (truth[place - 2 * step] - left).abs().max((truth[place + 3 * step] - right).abs());
-    if !clean || contrast.abs() < CONTRAST || uneven > EVEN * contrast.abs() {
+    // Beyond the transition and its neighbours only something else than a shift can differ, such as a texture.
+    let other_error = |p: usize| (scene.image[p] - truth[p]).abs();
+    let beyond = other_error(place - 2 * step).max(other_error(place + 3 * step));
+    if !clean || contrast.abs() < CONTRAST || uneven.max(beyond) > EVEN * contrast.abs() {
         return None;
     }
     let sum: f32 = (0..4).map(|i| place + i * step - step).map(|p| scene.image[p] - truth[p]).sum();
