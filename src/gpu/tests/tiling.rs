@@ -39,7 +39,9 @@ fn windows_are_parts_of_the_image() {
         let (x, y) = (i as u32 % 500, i as u32 / 500);
         let inside = windows.iter().any(|w| (w.x..w.right()).contains(&x) && (w.y..w.bottom()).contains(&y));
         let colors = [&whole, &parts].map(|frame| &rgb(frame, 0)[i * 3..][..3]);
-        assert_eq!((*found, colors[1]), if inside { (*wanted, colors[0]) } else { (0, &[0u8; 3][..]) }, "at {x}, {y}");
+        let (number, color) = if inside { (*wanted, colors[0]) } else { (0, &[0u8; 3][..]) };
+        let off = color.iter().zip(colors[1]).map(|(a, b)| a.abs_diff(*b)).max();
+        assert!(*found == number && off <= Some(1), "at {x}, {y}: {off:?}");
     }
 }
 
