@@ -52,7 +52,7 @@ fn cases() -> Vec<Case> {
             40.0,
             20.0,
             (0.012, 0.002),
-            Look { clouds: Some(Clouds { height: 300.0, ..CLOUDS }), ..lit.clone() },
+            Look { clouds: Some(Clouds { height: 300.0, size: 12.0, ..CLOUDS }), ..lit.clone() },
         ),
         ("ash", 50.0, 0.0, (0.01, 0.001), Look { ground: ground(GroundKind::Ash), ..lit.clone() }),
         ("puddles", 50.0, 50.0, (0.012, 0.002), Look { ground: ground(GroundKind::Puddles), ..lit.clone() }),
