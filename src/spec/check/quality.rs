@@ -36,8 +36,6 @@ impl Checker<'_> {
         };
         let shadow_map = knob("shadow_map", 64, 16_384);
         let shadow_samples = knob("shadow_samples", 1, 16);
-        let sky_samples = knob("sky_samples", 1, 256);
-        let field_map = knob("field_map", 64, 8192);
         let samples = knob("antialiasing", 1, 64);
         let supersample = match samples? {
             Some(samples) => Some(self.per_side(samples, block)?),
@@ -48,8 +46,7 @@ impl Checker<'_> {
             supersample: supersample.unwrap_or(preset.supersample),
             shadow_map: shadow_map?.unwrap_or(preset.shadow_map),
             shadow_samples: shadow_samples?.unwrap_or(preset.shadow_samples),
-            sky_samples: sky_samples?.unwrap_or(preset.sky_samples),
-            field_map: field_map?.unwrap_or(preset.field_map),
+            ..preset
         })
     }
 
