@@ -1,5 +1,6 @@
 //! Effects: what light meets on its way beside the scene's surfaces. In: numbers that a recipe and a clear-sky model
-//! give. Out: what both renderers evaluate, each in its own way. Data, and the definitions of the random fields.
+//! give. Out: what both renderers are to evaluate, each in its own way. Data; shadows and ambient light alone are drawn
+//! so far, nothing makes the others.
 
 use std::sync::Arc;
 
@@ -86,7 +87,7 @@ pub struct Clouds {
 }
 
 /// What lies on the ground around changed features: the albedo of surfaces that look up (normal y over ½) goes to
-/// `albedo` by the share `coverage` of [`GroundState::coverage`].
+/// that of its kind by the share covered.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GroundState {
     pub key: u64,

@@ -4,7 +4,6 @@ pub mod change;
 pub mod demand;
 pub mod dump;
 pub mod effects;
-pub mod field;
 pub mod light;
 pub mod pass;
 pub mod resource;
