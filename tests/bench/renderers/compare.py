@@ -1,7 +1,7 @@
 """Mansard's frame beside Mitsuba 3 and Blender's Cycles: the same scene, camera and sun; time against error.
 
 In: a folder that `mansard render tests/bench/renderers/window.render --set shadows=hard ...` wrote (scene.glb, manifest.json) and the
-folder of the same frame by `--backend reference` (the truth). Out: a table on standard output, images beside them.
+folder of the same frame that counts as the truth, such as one with `--set preset=high`. Out: a table on standard output, images beside them.
 
     python3 -m venv venv && venv/bin/pip install mitsuba==3.9.0 numpy pillow        # and bpy==5.0.1 for Cycles
     venv/bin/python tests/bench/renderers/compare.py --scene out/standard --truth out/truth --disc 0 \
