@@ -75,10 +75,7 @@ impl Gpu {
         GpuError::Failed { adapter: self.adapter.name.clone(), task: task.to_owned(), reason: reason.to_string() }
     }
 
-    pub fn uniform<T: bytemuck::Pod>(&self, label: &str, value: &T) -> wgpu::Buffer {
-        self.buffer(label, bytemuck::bytes_of(value), wgpu::BufferUsages::UNIFORM)
-    }
-
+    /// What shaders read. Storage and never uniform: Mesa 22's llvmpipe crashes where branches depend on uniforms.
     pub fn stored<T: bytemuck::Pod>(&self, label: &str, value: &T) -> wgpu::Buffer {
         self.buffer(label, bytemuck::bytes_of(value), wgpu::BufferUsages::STORAGE)
     }

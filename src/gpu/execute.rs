@@ -280,7 +280,7 @@ impl Execution<'_> {
         area: (u32, u32),
         encode: impl FnOnce(&Drawing),
     ) {
-        let buffer = self.gpu.uniform("view", uniform);
+        let buffer = self.gpu.stored("view", uniform);
         let entries = [wgpu::BindGroupEntry { binding: 0, resource: buffer.as_entire_binding() }];
         let layout = &self.pipelines.layouts.view;
         let descriptor = wgpu::BindGroupDescriptor { label: Some("view"), layout, entries: &entries };

@@ -176,17 +176,20 @@ impl Layouts {
         let filterable = texture(TextureSampleType::Float { filterable: true });
         let (vertex, fragment) = (ShaderStages::VERTEX, ShaderStages::FRAGMENT);
         let filtering = wgpu::BindingType::Sampler(SamplerBindingType::Filtering);
-        let uniform = buffer(BufferBindingType::Uniform);
         let stored = buffer(BufferBindingType::Storage { read_only: true });
         let blocks = texture(TextureSampleType::Float { filterable: false });
         Layouts {
-            view: group("view", &[(0, vertex | fragment, uniform)]),
+            view: group("view", &[(0, vertex | fragment, stored)]),
             texture: group("color texture", &[(0, fragment, filterable), (1, fragment, filtering)]),
             first_bounds: group(
                 "first bounds",
-                &[(0, fragment, stored), (1, fragment, texture(TextureSampleType::Depth))],
+                &[
+                    (0, fragment, stored),
+                    (1, fragment, texture(TextureSampleType::Depth)),
+                    (2, fragment, wgpu::BindingType::Sampler(SamplerBindingType::NonFiltering)),
+                ],
             ),
-            coarse_bounds: group("coarse bounds", &[(2, fragment, blocks)]),
+            coarse_bounds: group("coarse bounds", &[(3, fragment, blocks)]),
             resolve: group("resolve", &[(0, fragment, filterable), (1, fragment, filtering)]),
             texture_sampler: texture_sampler(gpu, TextureFilter::default()),
             gather_sampler: gpu.device.create_sampler(&wgpu::SamplerDescriptor::default()),

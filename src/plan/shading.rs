@@ -91,10 +91,8 @@ pub struct ShadowLook {
 /// What the shadow of a disc needs besides the map.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SoftLook {
-    /// Highest and lowest point of each block of the map.
+    /// Highest and lowest point of each block of the map, and of blocks of blocks.
     pub bounds: ResourceId,
-    /// The same of blocks of blocks.
-    pub coarse: ResourceId,
     /// Most looks into the map, for the search of what stands in the way and for the filter each.
     pub samples: u32,
     /// World height of the scene's top, metres.
@@ -194,7 +192,7 @@ impl Illumination {
 
     /// Maps that the shading reads.
     pub fn reads(&self) -> Vec<ResourceId> {
-        let soft = self.shadow.iter().filter_map(|shadow| shadow.soft).flat_map(|soft| [soft.bounds, soft.coarse]);
+        let soft = self.shadow.iter().filter_map(|shadow| shadow.soft).map(|soft| soft.bounds);
         let shadow = self.shadow.iter().map(|shadow| shadow.map).chain(soft);
         let sky = self.sky.iter().map(|sky| sky.maps);
         let ground = self.ground.map(|(_, look)| look);

@@ -47,15 +47,19 @@ pub fn encode(
     gpu: &Gpu,
     pipelines: &Pipelines,
     light: &LightFrame,
-    (map, fine, coarse): (&Target, &Target, &Target),
+    (map, blocks, all): (&Target, &Target, &Target),
 ) {
     let layouts = &pipelines.layouts;
     let uniform = gpu.stored("shadow bounds", &height_row(light).map(|c| c as f32));
     let entry = |binding, resource| wgpu::BindGroupEntry { binding, resource };
-    let of_map = [entry(0, uniform.as_entire_binding()), entry(1, wgpu::BindingResource::TextureView(&map.view))];
-    let of_blocks = [entry(2, wgpu::BindingResource::TextureView(&fine.view))];
+    let of_map = [
+        entry(0, uniform.as_entire_binding()),
+        entry(1, wgpu::BindingResource::TextureView(&map.view)),
+        entry(2, wgpu::BindingResource::Sampler(&layouts.gather_sampler)),
+    ];
+    let of_blocks = [entry(3, wgpu::BindingResource::TextureView(&blocks.view))];
     let steps =
-        [(true, &layouts.first_bounds, &of_map[..], fine), (false, &layouts.coarse_bounds, &of_blocks[..], coarse)];
+        [(true, &layouts.first_bounds, &of_map[..], blocks), (false, &layouts.coarse_bounds, &of_blocks[..], all)];
     for (first, layout, entries, target) in steps {
         let descriptor = wgpu::BindGroupDescriptor { label: Some("shadow bounds"), layout, entries };
         let group = gpu.device.create_bind_group(&descriptor);

@@ -21,7 +21,7 @@ struct View {
     unused: f32,
 };
 
-@group(0) @binding(0) var<uniform> view: View;
+@group(0) @binding(0) var<storage, read> view: View;
 
 // Clip position in the panel. Positions are first rounded to 1/256 sample in the whole image, which is the grid that
 // rasterisers use: the same triangle then covers the same samples whichever part it is drawn in.

@@ -21,8 +21,8 @@ pub const BLOCK: u32 = 8;
 #[derive(Default)]
 pub struct Maps {
     shadow: Option<(DrawSet, LightFrame, ResourceId)>,
-    /// Of which map, fine and coarse.
-    bounds: Option<(ResourceId, [ResourceId; 2])>,
+    /// Of which map.
+    bounds: Option<(ResourceId, ResourceId)>,
     sky: Option<(DrawSet, SkyLook)>,
     fields: [Option<(Field, FieldLook)>; 3],
 }
@@ -94,9 +94,9 @@ impl ViewScheduler<'_> {
             return Some(ShadowLook { frame, map, soft: None });
         }
         let made = maps.bounds.filter(|(of, _)| *of == map);
-        let [fine, coarse] = made.map_or_else(|| self.shadow_bounds(frame, map), |(_, blocks)| blocks);
-        maps.bounds = Some((map, [fine, coarse]));
-        let soft = SoftLook { bounds: fine, coarse, samples: self.soft_samples(), top: bounds.1.y };
+        let bounds_map = made.map_or_else(|| self.shadow_bounds(frame, map), |(_, blocks)| blocks);
+        maps.bounds = Some((map, bounds_map));
+        let soft = SoftLook { bounds: bounds_map, samples: self.soft_samples(), top: bounds.1.y };
         Some(ShadowLook { frame, map, soft: Some(soft) })
     }
 
@@ -112,14 +112,14 @@ impl ViewScheduler<'_> {
     }
 
     /// Blocks per side are a power of two, so that halving them loses none.
-    fn shadow_bounds(&mut self, light: LightFrame, map: ResourceId) -> [ResourceId; 2] {
+    fn shadow_bounds(&mut self, light: LightFrame, map: ResourceId) -> ResourceId {
         let blocks = light.size.div_ceil(BLOCK).next_power_of_two().max(2);
         let fine = self.texture("shadow_bounds", map_texture(Format::Bounds32, blocks));
-        let coarse = TextureKey { height: blocks / 2, number: 1, ..map_texture(Format::Bounds32, blocks) };
-        let coarse = self.texture("shadow_bounds", coarse);
+        let all = TextureKey { width: 2 * blocks, number: 1, ..map_texture(Format::Bounds32, blocks) };
+        let all = self.texture("shadow_bounds", all);
         let pipelines = [true, false].map(|first| PipelineKey::ShadowBounds { first }).to_vec();
-        self.once(PassKind::ShadowBounds { light }, vec![map], &[fine, coarse], pipelines);
-        [fine, coarse]
+        self.once(PassKind::ShadowBounds { light }, vec![map], &[fine, all], pipelines);
+        all
     }
 
     fn sky(&mut self, shading: &Shading, maps: &mut Maps) -> Option<SkyLook> {

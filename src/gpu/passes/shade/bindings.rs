@@ -24,7 +24,7 @@ fn entries(terms: Terms) -> Vec<wgpu::BindGroupLayoutEntry> {
     let (vertex, fragment) = (wgpu::ShaderStages::VERTEX, wgpu::ShaderStages::FRAGMENT);
     let both = vertex | fragment;
     let buffer = |ty| wgpu::BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None };
-    let (uniform, storage) = (buffer(Buffer::Uniform), buffer(Buffer::Storage { read_only: true }));
+    let storage = buffer(Buffer::Storage { read_only: true });
     let texture =
         |sample_type, view_dimension| wgpu::BindingType::Texture { sample_type, view_dimension, multisampled: false };
     let flat = |sample_type| texture(sample_type, wgpu::TextureViewDimension::D2);
@@ -35,23 +35,22 @@ fn entries(terms: Terms) -> Vec<wgpu::BindGroupLayoutEntry> {
     let (shadow, soft) = (terms.shadow != ShadowFilter::Unshadowed, terms.shadow == ShadowFilter::Soft);
     let sky_maps = texture(Texel::Depth, wgpu::TextureViewDimension::D2Array);
     let all = [
-        (true, 0, both, uniform),
+        (true, 0, both, storage),
         (true, 1, vertex, storage),
         (shadow, 2, both, storage),
         (shadow, 3, fragment, flat(Texel::Depth)),
         (shadow, 4, fragment, gathers),
         (soft, 5, both, storage),
         (soft, 6, fragment, flat(Texel::Float { filterable: false })),
-        (soft, 18, fragment, flat(Texel::Float { filterable: false })),
         (terms.occluded_sky, 7, fragment, storage),
         (terms.occluded_sky, 8, fragment, sky_maps),
         (terms.occluded_sky, 9, fragment, gathers),
-        (terms.haze, 10, fragment, uniform),
-        (clouds, 11, fragment, uniform),
+        (terms.haze, 10, fragment, storage),
+        (clouds, 11, fragment, storage),
         (clouds, 12, fragment, blends),
         (terms.cloud_shadow, 13, fragment, field),
         (terms.cloud_cover, 14, fragment, field),
-        (terms.ground.is_some(), 15, fragment, uniform),
+        (terms.ground.is_some(), 15, fragment, storage),
         (terms.ground.is_some(), 16, fragment, blends),
         (terms.ground.is_some(), 17, fragment, field),
     ];
@@ -100,7 +99,7 @@ pub fn group(gpu: &Gpu, layouts: &Layouts, layout: &wgpu::BindGroupLayout, lit: 
 fn bound<'a>(gpu: &Gpu, layouts: &'a Layouts, lit: &Lit) -> Vec<(u32, Bound<'a>)> {
     let Lit { origin, light, side, materials, targets } = *lit;
     let view = |id: ResourceId| Bound::View(targets[&id].view.clone());
-    let lamp = gpu.uniform("lamp", &LampUniform::new(light));
+    let lamp = gpu.stored("lamp", &LampUniform::new(light));
     let mut bound = vec![(0, Bound::Buffer(lamp)), (1, Bound::Buffer(materials.clone()))];
     if let Some(shadow) = &light.shadow {
         let uniform = gpu.stored("shadow", &ShadowUniform::new(origin, &shadow.frame));
@@ -112,7 +111,7 @@ fn bound<'a>(gpu: &Gpu, layouts: &'a Layouts, lit: &Lit) -> Vec<(u32, Bound<'a>)
         if let Some(soft) = &shadow.soft {
             let disc = light.sun.map_or(0.0, |sun| sun.disc_deg);
             let uniform = gpu.stored("disc", &DiscUniform::new(origin, &shadow.frame, soft, disc));
-            bound.extend([(5, Bound::Buffer(uniform)), (6, view(soft.bounds)), (18, view(soft.coarse))]);
+            bound.extend([(5, Bound::Buffer(uniform)), (6, view(soft.bounds))]);
         }
     }
     if let Some(look) = &light.sky {
@@ -121,16 +120,16 @@ fn bound<'a>(gpu: &Gpu, layouts: &'a Layouts, lit: &Lit) -> Vec<(u32, Bound<'a>)
         bound.extend([(7, Bound::Buffer(views)), (8, maps), (9, Bound::Sampler(&layouts.gather_sampler))]);
     }
     if let Some(haze) = &light.haze {
-        bound.push((10, Bound::Buffer(gpu.uniform("haze", &HazeUniform::new(origin, haze, light)))));
+        bound.push((10, Bound::Buffer(gpu.stored("haze", &HazeUniform::new(origin, haze, light)))));
     }
     let clouds = [(13, light.cloud_shadow), (14, light.cloud_cover)];
     if clouds.iter().any(|(_, look)| look.is_some()) {
-        let uniform = gpu.uniform("clouds", &CloudsUniform::new(origin, light));
+        let uniform = gpu.stored("clouds", &CloudsUniform::new(origin, light));
         bound.extend([(11, Bound::Buffer(uniform)), (12, Bound::Sampler(&layouts.linear_sampler))]);
         bound.extend(clouds.into_iter().filter_map(|(binding, look)| Some((binding, view(look?.map)))));
     }
     if let Some((_, look)) = &light.ground {
-        let uniform = gpu.uniform("ground", &uniforms::field_row(origin, &look.frame));
+        let uniform = gpu.stored("ground", &uniforms::field_row(origin, &look.frame));
         let sampler = Bound::Sampler(&layouts.linear_sampler);
         bound.extend([(15, Bound::Buffer(uniform)), (16, sampler), (17, view(look.map))]);
     }

@@ -14,10 +14,6 @@ use crate::plan::shading::{FieldFrame, FieldLook, Illumination, SkyLook, SoftLoo
 /// of a texel for smooth normals that differ from the plane of their triangle.
 const FADE_METRES: f64 = 0.04;
 const FADE_TEXELS: f64 = 0.5;
-/// Looks that a soft shadow's spiral has directions for.
-const TURNS: usize = 256;
-/// Radians between neighbours of a sunflower spiral.
-const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
 
 fn vector(v: DVec3, w: f64) -> [f32; 4] {
     v.extend(w).as_vec4().to_array()
@@ -103,7 +99,6 @@ pub struct DiscUniform {
     rise: [f32; 2],
     climb: f32,
     samples: u32,
-    turns: [[f32; 2]; TURNS],
 }
 
 impl DiscUniform {
@@ -115,11 +110,7 @@ impl DiscUniform {
             top: (soft.top - light.anchor.y) as f32,
             rise: [light.u.y * light.texel.x, light.v.y * light.texel.y].map(|r| r as f32),
             climb: light.direction.y as f32,
-            samples: soft.samples.min(TURNS as u32),
-            turns: std::array::from_fn(|k| {
-                let (sin, cos) = libm::sincos(k as f64 * GOLDEN_ANGLE);
-                [cos as f32, sin as f32]
-            }),
+            samples: soft.samples,
         }
     }
 }
@@ -147,7 +138,8 @@ pub fn sky(origin: DVec3, look: &SkyLook, side: u32) -> Vec<u8> {
     };
     let views: Vec<SkyView> = look.frames.iter().map(view).collect();
     let texel = 1.0 / size as f32;
-    let header = [side.to_le_bytes(), look.subsets.to_le_bytes(), texel.to_le_bytes(), [0; 4]].concat();
+    let count = views.len() as u32;
+    let header = [side.to_le_bytes(), look.subsets.to_le_bytes(), texel.to_le_bytes(), count.to_le_bytes()].concat();
     [&header, bytemuck::cast_slice(&views)].concat()
 }
 

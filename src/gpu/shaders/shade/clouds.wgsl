@@ -12,7 +12,7 @@ struct Clouds {
     unused2: f32,
 };
 
-@group(1) @binding(11) var<uniform> clouds: Clouds;
+@group(1) @binding(11) var<storage, read> clouds: Clouds;
 @group(1) @binding(12) var field_sampler: sampler;
 #if cloud_shadow
 @group(1) @binding(13) var cloud_shadow_map: texture_2d<f32>;

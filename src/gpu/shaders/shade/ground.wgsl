@@ -5,7 +5,7 @@ struct Ground {
     frame: vec4<f32>,
 };
 
-@group(1) @binding(15) var<uniform> ground: Ground;
+@group(1) @binding(15) var<storage, read> ground: Ground;
 @group(1) @binding(16) var ground_sampler: sampler;
 @group(1) @binding(17) var ground_map: texture_2d<f32>;
 

@@ -11,7 +11,7 @@ struct Haze {
     unused: vec2<f32>,
 };
 
-@group(1) @binding(10) var<uniform> haze: Haze;
+@group(1) @binding(10) var<storage, read> haze: Haze;
 
 fn through_haze(radiance: Light, place: vec3<f32>) -> Light {
     let path = path_to(place);

@@ -19,7 +19,7 @@ struct Lamp {
     ground: vec4<f32>,
 };
 
-@group(1) @binding(0) var<uniform> light: Lamp;
+@group(1) @binding(0) var<storage, read> light: Lamp;
 // Linear colour of each material; the fourth number is near-infrared albedo over luminance.
 @group(1) @binding(1) var<storage, read> materials: array<vec4<f32>>;
 #if texture
