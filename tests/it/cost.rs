@@ -129,7 +129,7 @@ fn what_cannot_be_kept_names_the_best() {
     let shop = shop("error 0.1%  antialiasing 1");
     shop.run(&["render", "r.render", "-o", "out", "--quiet"])
         .expect(1)
-        .says(&["no settings keep error 0.1000 % in scene `town` of dataset `d`: the best there is has error"]);
+        .says(&["no settings keep error 0.100 % in scene `town` of dataset `d`: the best there is has error"]);
     let shop = self::shop("height 0.001m");
     shop.run(&["build", "r.render", "-o", "o.glb", "--quiet"])
         .expect(1)

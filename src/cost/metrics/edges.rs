@@ -9,7 +9,8 @@
 //! row, which the true image's gradient gives.
 //!
 //! Only clean edges are judged: the labels are the same for three pixels on both sides in three rows, the light on each
-//! side is even and, beyond the reach of a shift, the same in both images, and the contrast is at least [`CONTRAST`].
+//! side is even and, beyond the reach of a shift, the same in both images, what lies between the sides is no darker and
+//! no brighter than they are, and the contrast is at least [`CONTRAST`].
 
 /// Least difference in light, of white, between the two sides.
 const CONTRAST: f32 = 0.08;
@@ -89,6 +90,12 @@ fn displacement(scene: &Scene, place: usize, (step, across): (usize, usize)) -> 
     let other_error = |p: usize| (scene.image[p] - truth[p]).abs();
     let beyond = other_error(place - 2 * step).max(other_error(place + 3 * step));
     if !clean || contrast.abs() < CONTRAST || uneven.max(beyond) > EVEN * contrast.abs() {
+        return None;
+    }
+    // A third light between the two, such as a wall beneath a roof's edge, would pass for a shift.
+    let (low, high) = (left.min(right) - EVEN * contrast.abs(), left.max(right) + EVEN * contrast.abs());
+    let between = |p: usize| [truth[p], scene.image[p]].iter().all(|v| (low..=high).contains(v));
+    if !(0..4).map(|i| place + i * step - step).all(between) {
         return None;
     }
     let sum: f32 = (0..4).map(|i| place + i * step - step).map(|p| scene.image[p] - truth[p]).sum();

@@ -48,8 +48,15 @@ fn compare_labels(case: &str, drawn: &crate::frame::Frame, traced: &crate::refer
         panic!("numbers and depth")
     };
     let other = ids.iter().zip(numbers(traced, 1)).filter(|(a, b)| a != b).count();
-    // Positions on the image are rounded to 1/256 sample by rasterisers.
-    let far = metres.iter().zip(depth(traced, 2)).filter(|(a, b)| a != b && (*a - *b).abs() > 0.02).count();
+    let (truth, width) = (depth(traced, 2), drawn.width as usize);
+    // Rasterisers round places on the image to 1/256 pixel, which walls seen along their length turn into much depth.
+    let steep = |i: usize| {
+        let near = [i.wrapping_sub(width), i.wrapping_sub(1), i + 1, i + width];
+        let steps = near.iter().filter_map(|&j| Some((truth.get(j)? - truth[i]).abs()));
+        steps.filter(|step| step.is_finite()).fold(0.0, f32::max)
+    };
+    let far = |i: &usize| metres[*i] != truth[*i] && (metres[*i] - truth[*i]).abs() > 0.02 + steep(*i) / 100.0;
+    let far = (0..metres.len()).filter(far).count();
     println!("{case}: {other} labels, {far} depths of {} differ", ids.len());
     assert!(other * 1000 <= ids.len() && far * 500 <= ids.len(), "{case}: {other} labels, {far} depths");
 }
