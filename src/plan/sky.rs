@@ -53,7 +53,7 @@ mod tests {
             assert!((irradiance(DVec3::Y, all.iter().copied()) - 1.0).abs() < 1e-12);
             // A slope of 60° sees three quarters of the sky.
             for azimuth in 0..12 {
-                let (sin, cos) = libm::sincos(f64::from(azimuth) * 0.5236);
+                let (sin, cos) = libm::sincos(f64::from(30 * azimuth).to_radians());
                 let slope = DVec3::new(0.75f64.sqrt() * cos, 0.5, 0.75f64.sqrt() * sin);
                 let error = irradiance(slope, all.iter().copied()) - 0.75;
                 assert!(error.abs() < 1.0 / f64::from(count).sqrt(), "{count} directions: {error}");

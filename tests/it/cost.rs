@@ -41,7 +41,7 @@ fn cost_of_a_small_view() {
         return;
     }
     let shop = shop("preset draft");
-    let args = ["cost", "r.render", "-o", "out", "--repeats", "1", "--windows", "1", "--side", "32", "--noise", "1"];
+    let args = ["cost", "r.render", "-o", "out", "--repeats", "1", "--windows", "2", "--side", "48", "--noise", "1"];
     let run = shop.run(&args).expect(0);
     assert!(run.stderr.contains("draft:") && run.stderr.contains("cost.html"), "{}", run.stderr);
 
@@ -55,7 +55,7 @@ fn cost_of_a_small_view() {
         rows.map(|row| row[column(name)].parse().expect("a number")).collect()
     };
     let edges = of("antialiasing", "edge_px_alone");
-    assert!(edges.len() == 8 && edges[0] > 4.0 * edges[7], "samples sharpen edges: {edges:?}");
+    assert!(edges.len() == 8 && edges[0] > 2.0 * edges[7], "samples sharpen edges: {edges:?}");
     let shadows = of("shadow_map", "shadow_iou_alone");
     assert!(shadows[4] > 0.95 && shadows[4] > shadows[0], "texels sharpen shadows: {shadows:?}");
     let heights = of("terrain tolerance", "height_m");
@@ -130,10 +130,6 @@ fn what_cannot_be_kept_names_the_best() {
     shop.run(&["render", "r.render", "-o", "out", "--quiet"])
         .expect(1)
         .says(&["no settings keep error 0.100 % in scene `town` of dataset `d`: the best there is has error"]);
-    let shop = self::shop("height 0.001m");
-    shop.run(&["build", "r.render", "-o", "o.glb", "--quiet"])
-        .expect(1)
-        .says(&["cannot keep height 0.001 m: the best"]);
 }
 
 #[test]

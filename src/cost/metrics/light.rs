@@ -83,7 +83,7 @@ mod tests {
     /// A constant error under noise is found again, whatever the noise.
     #[test]
     fn noise_of_the_truth_is_taken_off() {
-        let noise = |i: usize| if i % 2 == 0 { 0.02 } else { -0.02 };
+        let noise = |i: usize| if i.is_multiple_of(2) { 0.02 } else { -0.02 };
         let truth: Vec<Rgb> = (0..1000).map(|i| [0.5 + noise(i), 0.5 + noise(i + 1), 0.5 + noise(i)]).collect();
         let mut found = LightErrors::default();
         found.add(&vec![[0.51; 3]; 1000], &truth, &vec![[0.02; 3]; 1000]);

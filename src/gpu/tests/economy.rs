@@ -63,8 +63,11 @@ fn renderer_may_move_to_another_thread() {
     is_send::<crate::gpu::Renderer>();
 }
 
-/// One change of a look for every effect, with the passes it adds.
-fn effects() -> Vec<(&'static [&'static str], Box<dyn Fn(&mut Look)>)> {
+/// The passes that a change of a look adds, and the change.
+type Effect = (&'static [&'static str], Box<dyn Fn(&mut Look)>);
+
+/// One for every effect.
+fn effects() -> Vec<Effect> {
     let haze = Haze { extinction: [1e-4; 3], scale_height: 900.0, base: 0.0, airlight: [0.3; 3] };
     // Above the tests' camera, and below it.
     let high = Clouds { key: 1, cover: 0.4, height: 2000.0, size: 300.0, depth: 2.0, color: [0.8; 3] };
