@@ -191,21 +191,10 @@ fn shadow_knobs(subject: Subject) -> Vec<Knob> {
 
 /// What is not swept here, and why.
 pub fn unswept(subject: Subject) -> Vec<Unswept> {
-    let mut list = vec![
-        Unswept {
-            knob: "curve tessellation",
-            reason: "the program makes no curves of its own: rules give the number of sides of round shapes, and map \
-                     geometry is polygonal",
-        },
-        Unswept {
-            knob: "roof method",
-            reason: "there is one, the straight skeleton on an exact grid; what fails its checks is counted in the ledger",
-        },
-        Unswept {
-            knob: "geometry detail against pixel size",
-            reason: "meshes are not simplified: every triangle that a rule makes is drawn",
-        },
-    ];
+    let mut list = vec![Unswept {
+        knob: "roof method",
+        reason: "there is one, the straight skeleton on an exact grid; what fails its checks is counted in the ledger",
+    }];
     let absent = [
         (!subject.shadows(), "shadow_map", "the recipe has no shadows, or no sun"),
         (subject.shadows() && subject.look.shadows != Shadows::Soft, "shadow_samples", "hard shadows take one sample"),

@@ -78,6 +78,8 @@ pub struct SceneRecord {
     pub triangles: usize,
     /// Greatest vertical distance between the ground mesh and the elevation data, metres.
     pub terrain_error_m: f64,
+    /// Upright faces smaller than this in every direction were not derived further, metres; 0 derives all.
+    pub detail_m: f64,
     pub changes: Vec<ChangeRecord>,
     pub reports: BTreeMap<String, ReportRecord>,
     pub ledger: Ledger,

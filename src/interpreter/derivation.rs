@@ -16,7 +16,7 @@ use super::palette::Palette;
 use super::placement::Frame;
 use super::provenance::Sources;
 use super::reports::Reports;
-use super::shape::Shape;
+use super::shape::{Scope, Shape};
 use super::start;
 use super::steps::{Path, StepId, Steps};
 use super::streets::Streets;
@@ -25,6 +25,9 @@ use super::value::Value;
 use crate::cga::program::{Program, RuleId};
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::source::Span;
+
+/// Rise of the normal of a face that counts as upright, per metre.
+const UPRIGHT: f64 = 0.5;
 
 /// State of one run.
 pub struct Derivation<'p> {
@@ -153,6 +156,10 @@ impl<'p> Derivation<'p> {
                     self.note_leaf(&task);
                     self.leaves.push(name, task.shape, &self.steps, task.step);
                 }
+                Symbol::Rule(rule) if self.is_small_detail(&task.shape) => {
+                    let name = &self.program.rule(rule).name;
+                    self.leaves.push(name, task.shape, &self.steps, task.step);
+                }
                 Symbol::Rule(rule) => {
                     self.running = Some(task.step);
                     let children = std::mem::take(&mut self.spare);
@@ -164,6 +171,13 @@ impl<'p> Derivation<'p> {
             }
         }
         Ok(())
+    }
+
+    /// Whether a shape is a piece of a facade too small for its rule to matter.
+    fn is_small_detail(&self, shape: &Shape) -> bool {
+        let Scope { frame, size } = shape.scope;
+        let upright = libm::fabs(frame.axes.z_axis.y) < UPRIGHT;
+        self.limits.detail > 0.0 && upright && size.z == 0.0 && size.abs().max_element() < self.limits.detail
     }
 
     /// Child numbers from the root to the shape whose rule runs; none before the first rule.

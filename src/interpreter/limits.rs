@@ -1,6 +1,8 @@
-//! How much one start shape may become. In: numbers of the host. Out: a typed stop.
+//! How much one start shape may become, and how fine. In: numbers of the host. Out: a typed stop.
 
-/// Bounds per start shape; a bound that is met is an error naming the chain of rules.
+use crate::geometry::roof::CURVE_BANDS;
+
+/// Bounds per start shape; a bound (`max_`) that is met is an error naming the chain of rules.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Limits {
     /// Rules within rules.
@@ -19,6 +21,11 @@ pub struct Limits {
     pub max_array: usize,
     /// Bytes of printed text and of one string value.
     pub max_text: usize,
+    /// Metres: an upright face that is smaller in every direction becomes a leaf before its rule runs, as it is. 0 runs
+    /// every rule.
+    pub detail: f64,
+    /// Bands of planes from the eaves to the top of round roofs, at least 1.
+    pub curve_bands: u32,
 }
 
 impl Default for Limits {
@@ -32,6 +39,8 @@ impl Default for Limits {
             max_expression_depth: 600,
             max_array: 100_000,
             max_text: 1 << 20,
+            detail: 0.0,
+            curve_bands: CURVE_BANDS,
         }
     }
 }

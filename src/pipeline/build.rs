@@ -17,11 +17,14 @@ use crate::geodata::ledger::{Ledger, Outcome};
 use crate::geodata::projection::LocalFrame;
 use crate::geodata::terrain::Terrain;
 use crate::geometry::Polygon;
+use crate::geometry::roof::CURVE_BANDS;
+use crate::interpreter::Limits;
 use crate::output::OutputError;
 use crate::plan::change::draw_changes;
 use crate::scene::Scene;
 use crate::scene::assemble::{FeatureParts, TERRAIN_INSTANCE, assemble, ground_layers};
 use crate::scene::ground::build_ground;
+use crate::spec::render_spec::DatasetSpec;
 
 /// Greatest vertical distance allowed between the ground mesh and the elevation data, metres.
 pub const TERRAIN_TOLERANCE_M: f64 = 0.5;
@@ -49,6 +52,34 @@ pub enum Checks {
     All,
 }
 
+/// How finely a scene is built.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fineness {
+    /// Vertical distance, metres, within which the ground keeps to the elevation data where its posts allow it.
+    pub terrain_tolerance_m: f64,
+    /// Metres: as [`Limits::detail`](crate::interpreter::Limits::detail).
+    pub detail_m: f64,
+    /// As [`Limits::curve_bands`](crate::interpreter::Limits::curve_bands).
+    pub curve_bands: u32,
+}
+
+impl Fineness {
+    /// What the datasets that show a scene ask for; where they differ, the finest.
+    pub fn of(recipe: &Recipe, scene: usize) -> Fineness {
+        let detail = datasets_of(recipe, scene).map(|dataset| dataset.quality.detail_m).reduce(f64::min);
+        let curves = datasets_of(recipe, scene).map(|dataset| dataset.quality.curves).max();
+        Fineness {
+            terrain_tolerance_m: TERRAIN_TOLERANCE_M,
+            detail_m: detail.unwrap_or(0.0),
+            curve_bands: curves.unwrap_or(CURVE_BANDS),
+        }
+    }
+}
+
+fn datasets_of(recipe: &Recipe, scene: usize) -> impl Iterator<Item = &DatasetSpec> {
+    recipe.spec.datasets.iter().filter(move |dataset| dataset.views.iter().any(|view| view.scene == scene))
+}
+
 /// Builds the scene with this index.
 pub fn build_scene(
     recipe: &Recipe,
@@ -56,14 +87,20 @@ pub fn build_scene(
     checks: Checks,
     progress: &dyn Progress,
 ) -> Result<BuiltScene, PipelineError> {
-    let promised = height_budget(recipe, index);
-    let Some(promised_m) = promised else {
-        return build_scene_within(recipe, index, TERRAIN_TOLERANCE_M, checks, progress);
+    let usual = Fineness::of(recipe, index);
+    let Some(promised_m) = height_budget(recipe, index) else {
+        return build_scene_within(recipe, index, usual, checks, progress);
     };
     // The tolerance is aimed at; along borders that are split later a finer one may be needed to keep it.
     let mut best_m = f64::INFINITY;
     for share in [1.0, 0.5, 0.25, 0.125] {
-        let built = build_scene_within(recipe, index, promised_m * share, checks, progress)?;
+        let built = build_scene_within(
+            recipe,
+            index,
+            Fineness { terrain_tolerance_m: promised_m * share, ..usual },
+            checks,
+            progress,
+        )?;
         if built.record.terrain_error_m <= promised_m {
             return Ok(built);
         }
@@ -74,16 +111,14 @@ pub fn build_scene(
 
 /// The least height that datasets of a scene promise of its ground.
 fn height_budget(recipe: &Recipe, scene: usize) -> Option<f64> {
-    let of_scene = recipe.spec.datasets.iter().filter(|dataset| dataset.views.iter().any(|view| view.scene == scene));
-    of_scene.filter_map(|dataset| dataset.quality.budget?.height).reduce(f64::min)
+    datasets_of(recipe, scene).filter_map(|dataset| dataset.quality.budget?.height).reduce(f64::min)
 }
 
-/// Builds a scene whose ground keeps within this vertical distance of the elevation data, metres, where its posts allow
-/// it.
+/// Builds a scene this finely.
 pub fn build_scene_within(
     recipe: &Recipe,
     index: usize,
-    terrain_tolerance_m: f64,
+    fineness: Fineness,
     checks: Checks,
     progress: &dyn Progress,
 ) -> Result<BuiltScene, PipelineError> {
@@ -105,14 +140,15 @@ pub fn build_scene_within(
 
     // Derive every feature in every state.
     let assets = recipe.assets();
-    let derived = derive_features(recipe, spec, &place, (&assigned, &touched), &assets, checks, progress);
+    let limits = Limits { detail: fineness.detail_m, curve_bands: fineness.curve_bands, ..Limits::default() };
+    let derived = derive_features(recipe, spec, &place, (&assigned, &touched), &assets, (&limits, checks), progress);
 
     // Lay the ground under them and put everything together.
     progress.begin("scene", None);
     let layers = ground_layers(&derived.features);
     let sites = place.greenery.as_ref().map(|_| vegetation::sites(&place.features, &derived.features));
     let area = Polygon { outer: place.area.clone(), holes: Vec::new() };
-    let ground = build_ground(&area, &place.terrain, terrain_tolerance_m, &layers)
+    let ground = build_ground(&area, &place.terrain, fineness.terrain_tolerance_m, &layers)
         .map_err(|source| PipelineError::Ground { scene: spec.name.clone(), source })?;
     let changed = change_records(recipe, &derived.features, &drawn);
     let mut scene = assemble(derived.features, &ground);
@@ -145,7 +181,7 @@ pub fn build_scene_within(
         spec.name.clone(),
         spec.seed,
         &frame,
-        ground.worst_error_m,
+        (fineness, ground.worst_error_m),
         changed,
         &reports,
         ledger,
@@ -162,7 +198,7 @@ fn record(
     name: String,
     seed: u64,
     frame: &LocalFrame,
-    terrain_error_m: f64,
+    (fineness, terrain_error_m): (Fineness, f64),
     changes: Vec<ChangeRecord>,
     reports: &SceneReports,
     ledger: Ledger,
@@ -177,6 +213,7 @@ fn record(
         features,
         triangles: scene.objects.iter().map(|o| o.mesh.triangles.len()).sum(),
         terrain_error_m,
+        detail_m: fineness.detail_m,
         changes,
         reports: report_records(&reports.totals()),
         ledger,

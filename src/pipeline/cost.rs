@@ -3,27 +3,32 @@
 use std::path::{Path, PathBuf};
 
 use super::budget::settings;
-use super::build::{BuiltScene, Checks, TERRAIN_TOLERANCE_M, build_scene, build_scene_within};
+use super::build::{BuiltScene, Checks, Fineness, TERRAIN_TOLERANCE_M, build_scene, build_scene_within};
 use super::error::PipelineError;
 use super::progress::Progress;
 use super::recipe::Recipe;
 use super::views::scene_views;
 use crate::cost::bench::{Bench, Setting, Windows};
 use crate::cost::errors::{Metric, digits};
-use crate::cost::knobs::Subject;
+use crate::cost::knobs::{Subject, Unswept};
 use crate::cost::report::page::{About, Panel, frontier_plot, html, knob_plot};
 use crate::cost::report::picture::{AMPLIFIED, Picture};
 use crate::cost::report::table::to_csv;
 use crate::cost::sweep::{Kind, KnobText, Row, Sweep, Work};
 use crate::dataset::writer::write_file;
+use crate::geometry::roof::CURVE_BANDS;
 use crate::gpu::Renderer;
 use crate::output::prepare_folder;
-use crate::plan::demand::{Output, Quality, ViewDemand};
+use crate::plan::demand::{Camera, Output, Projection, Quality, ViewDemand};
 use crate::spec::PRESETS;
 use crate::spec::render_spec::{DatasetSpec, OutputSpec};
 
 /// Metres; the last is the truth of the others.
 const TOLERANCES: [f64; 6] = [4.0, 2.0, 1.0, 0.5, 0.25, 0.125];
+/// Facade detail left out, in pixels; the last is the truth of the others.
+const DETAILS: [f64; 6] = [8.0, 4.0, 2.0, 1.0, 0.5, 0.0];
+/// Bands of round roofs; the last is the truth of the others.
+const CURVES: [u32; 6] = [1, 2, 4, 8, 16, 32];
 
 /// What the command line says.
 #[derive(Clone, Debug)]
@@ -144,41 +149,101 @@ fn sweep(
     sweep.measure(&mut bench, what, &presets(own), own, &work)?;
     let panels = panels(&mut bench, own)?;
     drop(bench);
-    if has_elevation {
-        let mut finest =
-            build_scene_within(recipe, subject.scene, TOLERANCES[TOLERANCES.len() - 1], Checks::Off, progress)?;
-        terrain(&mut sweep, recipe, subject, options, &mut finest, renderer, &work, progress)?;
+    for knob in scene_knobs(recipe, subject.scene, demand, has_elevation) {
+        scene_knob(&mut sweep, &knob, recipe, subject, options, renderer, &work, progress)?;
     }
     progress.end(&format!("{} settings", sweep.rows.len()));
     Ok((sweep, panels, samples))
 }
 
+/// A knob that changes the scene: what it is called, and how finely each of its values builds; the last is the truth.
+struct SceneKnob {
+    text: KnobText,
+    values: Vec<(String, Fineness)>,
+}
+
+fn scene_knobs(recipe: &Recipe, scene: usize, demand: &ViewDemand, has_elevation: bool) -> Vec<SceneKnob> {
+    let own = Fineness::of(recipe, scene);
+    let gsd = gsd(&demand.camera);
+    let usual = |is: bool| if is { " (usual)" } else { "" };
+    let tolerance = |terrain_tolerance_m: f64| {
+        let name = format!("{terrain_tolerance_m} m{}", usual(terrain_tolerance_m == TERRAIN_TOLERANCE_M));
+        (name, Fineness { terrain_tolerance_m, ..own })
+    };
+    let detail = |pixels: f64| {
+        let detail_m = (pixels * gsd * 1000.0).round() / 1000.0;
+        let name = if pixels == 0.0 { "all".to_owned() } else { format!("none below {pixels} px, {detail_m} m") };
+        (name, Fineness { detail_m, ..own })
+    };
+    let terrain = SceneKnob {
+        text: KnobText {
+            name: "terrain tolerance",
+            metric: Metric::Height,
+            about: "how far the ground mesh may lie beside the elevation data; the truth is the finest",
+        },
+        values: TOLERANCES.map(tolerance).to_vec(),
+    };
+    let detail = SceneKnob {
+        text: KnobText {
+            name: "geometry detail",
+            metric: Metric::Light,
+            about: "which facade detail is left out, against the size of a pixel (`detail` of a recipe)",
+        },
+        values: DETAILS.map(detail).to_vec(),
+    };
+    let bands = |curve_bands: u32| {
+        let name = format!("{curve_bands} bands{}", usual(curve_bands == CURVE_BANDS));
+        (name, Fineness { curve_bands, ..own })
+    };
+    let curves = SceneKnob {
+        text: KnobText {
+            name: "curve tessellation",
+            metric: Metric::Light,
+            about: "bands of planes from the eaves to the top of round roofs (`curves` of a recipe)",
+        },
+        values: CURVES.map(bands).to_vec(),
+    };
+    [has_elevation.then_some(terrain), Some(detail), Some(curves)].into_iter().flatten().collect()
+}
+
+/// Metres of a pixel where the camera's axis enters the scene.
+fn gsd(camera: &Camera) -> f64 {
+    let half = match camera.projection {
+        Projection::Perspective { tan_x, .. } => tan_x * camera.near,
+        Projection::Orthographic { half_x, .. } => half_x,
+    };
+    2.0 * half / f64::from(camera.width)
+}
+
 #[expect(clippy::too_many_arguments, reason = "one loop taken out of the sweep")]
-fn terrain(
+fn scene_knob(
     sweep: &mut Sweep,
+    knob: &SceneKnob,
     recipe: &Recipe,
     subject: &Subjected,
     options: &CostOptions,
-    finest: &mut BuiltScene,
     renderer: &mut Renderer,
     work: &Work,
     progress: &dyn Progress,
 ) -> Result<(), PipelineError> {
     let own = Quality::from(&subject.dataset.quality);
-    let knob = KnobText {
-        name: "terrain tolerance",
-        metric: Metric::Height,
-        about: "how far the ground mesh may lie beside the elevation data; the truth is the finest",
-    };
-    let truth = demand(recipe, subject, finest);
-    let mut bench = Bench::new(renderer, &finest.scene, &[truth], None, windows(options), &|_| {})?;
-    for tolerance in TOLERANCES {
-        let built = build_scene_within(recipe, subject.scene, tolerance, Checks::Off, progress)?;
+    let build = |fineness| build_scene_within(recipe, subject.scene, fineness, Checks::Off, progress);
+    let (_, finest) = knob.values.last().expect("a knob has values");
+    let truth = build(*finest)?;
+    let (_, coarsest) = knob.values.first().expect("a knob has values");
+    if build(*coarsest)?.record.geometry_sha256 == truth.record.geometry_sha256 {
+        sweep.unswept.push(Unswept { knob: knob.text.name, reason: "it changes nothing in this scene" });
+        return Ok(());
+    }
+    let true_demand = demand(recipe, subject, &truth);
+    let mut bench = Bench::new(renderer, &truth.scene, &[true_demand], None, windows(options), &|_| {})?;
+    let of_ground = knob.text.metric == Metric::Height;
+    for (name, fineness) in &knob.values {
+        let built = build(*fineness)?;
         let demand = demand(recipe, subject, &built);
-        bench.replace(&built.scene, &[demand], Some(built.record.terrain_error_m))?;
-        let value = format!("{tolerance} m, {} triangles", built.record.triangles);
-        let usual = if tolerance == TERRAIN_TOLERANCE_M { " (usual)" } else { "" };
-        sweep.scene_value(&mut bench, &knob, &format!("{value}{usual}"), own, work)?;
+        bench.replace(&built.scene, &[demand], of_ground.then_some(built.record.terrain_error_m))?;
+        let value = format!("{name}, {} triangles", built.record.triangles);
+        sweep.scene_value(&mut bench, &knob.text, &value, own, work)?;
     }
     Ok(())
 }

@@ -16,9 +16,9 @@ use crate::diagnostics::{Diagnostics, Severity};
 use crate::geodata::ledger::{Ledger, Outcome};
 use crate::geodata::terrain::Terrain;
 use crate::geometry::mesh_checks::Bodies;
+use crate::interpreter::Limits;
 use crate::interpreter::assets::Assets;
 use crate::interpreter::context::Member;
-use crate::interpreter::limits::Limits;
 use crate::interpreter::reports::Report;
 use crate::interpreter::tree::ShapeTree;
 use crate::plan::change::Changed;
@@ -70,7 +70,7 @@ pub fn derive_features(
     place: &Place,
     (assigned, touched): (&[Option<usize>], &[Option<Changed>]),
     assets: &dyn Assets,
-    checks: Checks,
+    (limits, checks): (&Limits, Checks),
     progress: &dyn Progress,
 ) -> Derivation {
     let preparation = Preparation::new(recipe, scene, place);
@@ -92,7 +92,7 @@ pub fn derive_features(
         }
     }
     progress.begin("derive", Some(members.len() as u64));
-    let derived = derive_all(&members, assets, &Limits::default(), |number, tree| {
+    let derived = derive_all(&members, assets, limits, |number, tree| {
         let lot = prepared[states[number].0].lot.as_ref().expect("a feature with states has a lot");
         let derived = derived(tree, lot, &place.terrain, checks);
         progress.step(1);

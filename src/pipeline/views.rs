@@ -127,6 +127,10 @@ fn derivation(built: &BuiltScene) -> Vec<String> {
         format!("derive {} objects, {} triangles", built.scene.objects.len(), built.record.triangles),
         format!("{} textures, {} materials", built.scene.textures.len(), built.scene.materials.len()),
         format!("ground within {:.3} m of the elevation data", built.record.terrain_error_m),
+        match built.record.detail_m {
+            0.0 => "all detail of facades: the recipe leaves none out".to_owned(),
+            detail => format!("no detail of facades below {detail} m: the recipe leaves it out"),
+        },
     ];
     let mut reasons: Vec<(String, usize)> = Vec::new();
     for entry in &ledger.entries {

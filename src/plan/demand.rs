@@ -124,7 +124,16 @@ pub struct Quality {
 
 impl From<&QualitySpec> for Quality {
     fn from(spec: &QualitySpec) -> Quality {
-        let QualitySpec { supersample, shadow_map, shadow_samples, sky_samples, field_map, budget: _ } = *spec;
+        let QualitySpec {
+            supersample,
+            shadow_map,
+            shadow_samples,
+            sky_samples,
+            field_map,
+            detail_m: _,
+            curves: _,
+            budget: _,
+        } = *spec;
         Quality { supersample, shadow_map, shadow_samples, sky_samples, field_map }
     }
 }

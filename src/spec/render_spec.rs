@@ -275,6 +275,10 @@ pub struct QualitySpec {
     pub sky_samples: u32,
     /// Texels per side of the maps of clouds and of the state of the ground.
     pub field_map: u32,
+    /// Facade detail that need not be derived: upright faces smaller than this in every direction, metres.
+    pub detail_m: f64,
+    /// Bands of planes from the eaves to the top of round roofs.
+    pub curves: u32,
     /// Errors to keep: the knobs that the recipe does not give are then chosen by measuring.
     pub budget: Option<BudgetSpec>,
 }

@@ -137,6 +137,8 @@ pub const BLOCKS: &[BlockShape] = &[
             key("shadow_samples"),
             key("sky_samples"),
             key("field_map"),
+            key("detail"),
+            key("curves"),
             key("error"),
             key("edge"),
             key("height"),

@@ -20,7 +20,7 @@ mod tests;
 pub use self::gable::{gable, half_hipped};
 pub use self::hip::hip;
 pub use self::onion::onion;
-pub use self::osm::{Facing, RoofShape};
+pub use self::osm::{CURVE_BANDS, Facing, RoofShape};
 pub use self::profile::{Profile, dome, gambrel, mansard, round};
 pub use self::pyramid::pyramid;
 pub use self::ridge::ridge;

@@ -68,8 +68,8 @@ const NAMES: &[(RoofShape, &[&str])] = &[
 const BEND: (f64, f64) = (0.3, 0.7);
 /// Share of a pediment that stays upright under a half hip.
 const UPRIGHT: f64 = 0.5;
-/// Bands of planes from the eaves to the top of domes and barrels.
-const BANDS: u32 = 8;
+/// Usual bands of planes from the eaves to the top of domes and barrels.
+pub const CURVE_BANDS: u32 = 8;
 
 impl RoofShape {
     pub const ALL: [RoofShape; 12] = {
@@ -112,6 +112,17 @@ impl RoofShape {
     /// # Errors
     /// Slope or direction outside their domain; an outline that the shape cannot stand on.
     pub fn build(self, polygon: &Polygon, slope: Slope, facing: Facing) -> Result<Option<Roof>, RoofError> {
+        self.banded(polygon, slope, facing, CURVE_BANDS)
+    }
+
+    /// As [`RoofShape::build`] with this many bands of planes from the eaves to the top of what is round.
+    pub fn banded(
+        self,
+        polygon: &Polygon,
+        slope: Slope,
+        facing: Facing,
+        bands: u32,
+    ) -> Result<Option<Roof>, RoofError> {
         if self == RoofShape::Flat || slope.tangent(1.0)? == 0.0 {
             return Ok(None);
         }
@@ -122,7 +133,7 @@ impl RoofShape {
             return Err(SkeletonError::NotFinite.into());
         }
         let bend = || Profile::bent(BEND);
-        let barrel = || Profile::quarter_circle(BANDS);
+        let barrel = || Profile::quarter_circle(bands);
         let hips = || Ok::<_, RoofError>(PlanRoof::of_skeleton(skeleton(polygon, None)?));
         let roof = match self {
             RoofShape::Flat => return Ok(None),

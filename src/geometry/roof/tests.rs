@@ -340,6 +340,22 @@ fn every_roof_shape_of_the_map_is_sound_on_every_outline() {
 }
 
 #[test]
+fn more_bands_come_nearer_to_the_barrel() {
+    let r = rectangle(10.0, 6.0);
+    let barrel = |bands| RoofShape::Round.banded(&r, Slope::Height(3.0), Facing::Natural, bands).unwrap().unwrap();
+    let volumes = [1, 2, 4, 8, 16, 32].map(|bands| volume(&barrel(bands)));
+    // One band is a gable; half a cylinder of radius 3 is what they tend to.
+    close(volumes[0], 90.0);
+    let exact = 10.0 * std::f64::consts::PI * 9.0 / 2.0;
+    let missing = volumes.map(|volume| exact - volume);
+    assert!(missing.windows(2).all(|w| w[1] > 0.0 && w[1] < 0.35 * w[0]), "{missing:?}");
+    assert_eq!(
+        volume(&barrel(8)),
+        volume(&RoofShape::Round.build(&r, Slope::Height(3.0), Facing::Natural).unwrap().unwrap())
+    );
+}
+
+#[test]
 fn ridges_run_across_the_direction_that_the_map_gives() {
     let r = rectangle(10.0, 6.0);
     let ends = |facing: Facing| {

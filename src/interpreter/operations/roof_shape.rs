@@ -26,7 +26,8 @@ pub fn apply(run: &mut Derivation, args: &Args, shape: &mut Shape) {
         (None, None) => Facing::Natural,
     };
     let wanted = Wanted { name: title(kind), slope, by_design: &[], sides: Sides::OuterAndInner };
-    build(run, args, shape, wanted, |polygon, frame| kind.build(polygon, slope, facing(frame)));
+    let bands = run.limits.curve_bands;
+    build(run, args, shape, wanted, |polygon, frame| kind.banded(polygon, slope, facing(frame), bands));
 }
 
 /// The shape of this name; a flat one, with a warning, for a name that is not known.

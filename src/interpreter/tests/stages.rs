@@ -239,3 +239,31 @@ fn hip_of(angle: f64) -> Result<crate::geometry::roof::Roof, crate::geometry::ro
 fn roof_angle_179() {
     roof_of_angle("179", false);
 }
+
+#[test]
+fn facade_detail_below_the_limit_stays_as_it_is() {
+    // A facade of 10 x 3 m: walls around windows of 1 x 1 m in four panes, each with a sill that reaches out.
+    let rules = compiled(
+        "Lot --> extrude(3) comp(f) { side : Facade | all : NIL }\n\
+         Facade --> split(x) { ~2 : Tile }*\n\
+         Tile --> split(x) { ~1 : Wall. | 1 : split(y) { ~1 : Wall. | 1 : Window | ~1 : Wall. } | ~1 : Wall. }\n\
+         Window --> color(\"#808080\") split(x) { ~0.5 : split(y) { ~0.5 : Pane }* }*\n\
+         Pane --> extrude(0.1) Glass.",
+    );
+    let start = start(ground(SMALL), 0);
+    let at = |detail: f64| derive(&rules, &start, &NoAssets, &Limits { detail, ..Limits::default() });
+    let named = |tree: &ShapeTree, name: &str| tree.leaves.iter().filter(|leaf| &*leaf.rule == name).count();
+    let all = at(0.0);
+    let windows = named(&all, "Glass") / 4;
+    assert!(windows >= 12 && named(&all, "Window") == 0);
+    // Panes stay flat; then windows are not divided; walls are there throughout.
+    assert_eq!([named(&at(0.6), "Pane"), named(&at(0.6), "Glass")], [4 * windows, 0]);
+    assert_eq!([named(&at(1.1), "Window"), named(&at(1.1), "Pane")], [windows, 0]);
+    for detail in [0.0, 0.4, 0.6, 1.1] {
+        assert_eq!(named(&at(detail), "Wall"), named(&all, "Wall"), "{detail}");
+    }
+    // What lies flat is no facade, however small.
+    let flat = compiled("Lot --> comp(f) { all : Small }\nSmall --> extrude(5) Tower.");
+    let tree = derive(&flat, &start, &NoAssets, &Limits { detail: 100.0, ..Limits::default() });
+    assert_eq!(named(&tree, "Tower"), 1);
+}

@@ -1,6 +1,7 @@
 //! In: a `quality` block. Out: explicit knobs, and the errors to keep where a budget is to choose them.
 
 use super::{Checker, get};
+use crate::geometry::roof::CURVE_BANDS;
 use crate::spec::ast::{Block, Property};
 use crate::spec::render_spec::{BudgetSpec, FixedKnobs, QualitySpec};
 use crate::spec::units::Dimension;
@@ -19,7 +20,16 @@ const fn knobs(
     sky_samples: u32,
     field_map: u32,
 ) -> QualitySpec {
-    QualitySpec { supersample, shadow_map, shadow_samples, sky_samples, field_map, budget: None }
+    QualitySpec {
+        supersample,
+        shadow_map,
+        shadow_samples,
+        sky_samples,
+        field_map,
+        detail_m: 0.0,
+        curves: CURVE_BANDS,
+        budget: None,
+    }
 }
 
 /// What a recipe without a `quality` block gets.
@@ -48,11 +58,13 @@ impl Checker<'_> {
         let shadow_samples = knob("shadow_samples", 1, 16);
         let sky_samples = knob("sky_samples", 1, 256);
         let field_map = knob("field_map", 64, 8192);
+        let curves = knob("curves", 1, 64);
         let samples = knob("antialiasing", 1, 64);
         let supersample = match samples? {
             Some(samples) => Some(self.per_side(samples, block)?),
             None => None,
         };
+        let detail = self.limit(properties, "detail", Dimension::Length, (0.0, 10.0));
         let budget = self.budget(properties);
         let preset = preset?;
         Some(QualitySpec {
@@ -61,6 +73,8 @@ impl Checker<'_> {
             shadow_samples: shadow_samples?.unwrap_or(preset.shadow_samples),
             sky_samples: sky_samples?.unwrap_or(preset.sky_samples),
             field_map: field_map?.unwrap_or(preset.field_map),
+            detail_m: detail?.unwrap_or(preset.detail_m),
+            curves: curves?.unwrap_or(preset.curves),
             budget: budget?,
         })
     }
