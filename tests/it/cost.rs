@@ -70,7 +70,7 @@ fn cost_of_a_small_view() {
         assert!(page.contains(part), "{part}");
     }
     assert!(!page.contains("<script") && !page.contains("src=\"http"));
-    assert!(shop.list("out").iter().any(|name| name == "frontier-rmse.svg"), "{:?}", shop.list("out"));
+    assert!(shop.list("out").iter().any(|name| name == "out/frontier-rmse.svg"), "{:?}", shop.list("out"));
 }
 
 #[test]
