@@ -9,26 +9,30 @@ use bvh::bvh::{Bvh, BvhNode};
 use nalgebra::Point3;
 use smallvec::SmallVec;
 
-use super::ray::{Ray, Triangle};
+use super::ray::{Boxes, Ray, Triangle};
 
 /// Most triangles of a leaf.
 const LEAF: usize = 4;
 
 type Corners = [[f64; 3]; 2];
 
-/// The same in half the memory, never smaller: a node fits a cache line.
-type Outer = [[f32; 3]; 2];
+/// Children of a node.
+const WIDE: usize = 4;
 
 /// Nothing is inside it.
 const NOWHERE: Corners = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
 
-/// Two children: box, first node or triangle, number of triangles (0 for a node).
+/// Four children, side by side: box (never smaller, in half the memory), first node or triangle, number of triangles (0
+/// for a node). Children that are not there have boxes that nothing is in.
 #[derive(Clone, Copy, Debug)]
 struct Node {
-    corners: [Outer; 2],
-    first: [u32; 2],
-    count: [u32; 2],
+    boxes: Boxes,
+    first: [u32; WIDE],
+    count: [u32; WIDE],
 }
+
+const EMPTY: Node =
+    Node { boxes: [[[f32::INFINITY; WIDE]; 3], [[f32::NEG_INFINITY; WIDE]; 3]], first: [0; WIDE], count: [0; WIDE] };
 
 pub struct Hierarchy {
     nodes: Vec<Node>,
@@ -64,11 +68,22 @@ fn joined(a: &Corners, b: &Corners) -> Corners {
     [std::array::from_fn(|k| a[0][k].min(b[0][k])), std::array::from_fn(|k| a[1][k].max(b[1][k]))]
 }
 
-/// Rounded outwards.
-fn outer(corners: &Corners) -> Outer {
-    let least = |c: f64| if f64::from(c as f32) > c { (c as f32).next_down() } else { c as f32 };
-    let greatest = |c: f64| if f64::from(c as f32) < c { (c as f32).next_up() } else { c as f32 };
-    [corners[0].map(least), corners[1].map(greatest)]
+impl Node {
+    /// Sets a child; its box is rounded outwards.
+    fn set(&mut self, child: usize, corners: &Corners, (first, count): (u32, u32)) {
+        let least = |c: f64| if f64::from(c as f32) > c { (c as f32).next_down() } else { c as f32 };
+        let greatest = |c: f64| if f64::from(c as f32) < c { (c as f32).next_up() } else { c as f32 };
+        for k in 0..3 {
+            (self.boxes[0][k][child], self.boxes[1][k][child]) = (least(corners[0][k]), greatest(corners[1][k]));
+        }
+        (self.first[child], self.count[child]) = (first, count);
+    }
+}
+
+/// Half the surface of a box.
+fn area(corners: &Corners) -> f64 {
+    let [x, y, z] = std::array::from_fn(|k| corners[1][k] - corners[0][k]);
+    x * y + y * z + z * x
 }
 
 fn corners_of(triangle: &Triangle) -> Corners {
@@ -114,14 +129,18 @@ impl Hierarchy {
                 continue;
             }
             let node = &self.nodes[first as usize];
-            let enters = [0, 1].map(|i| ray.enters(&node.corners[i], near, far));
-            let child = |i: usize, enter: f64| (enter, node.first[i], node.count[i]);
-            match enters {
-                [Some(a), Some(b)] if a <= b => waiting.extend([child(1, b), child(0, a)]),
-                [Some(a), Some(b)] => waiting.extend([child(0, a), child(1, b)]),
-                [Some(a), None] => waiting.push(child(0, a)),
-                [None, Some(b)] => waiting.push(child(1, b)),
-                [None, None] => {}
+            let enters = ray.enters(&node.boxes, near, far);
+            let bottom = waiting.len();
+            for (child, enter) in enters.into_iter().enumerate() {
+                if enter < f64::INFINITY {
+                    waiting.push((enter, node.first[child], node.count[child]));
+                    // The nearest on top.
+                    let mut at = waiting.len() - 1;
+                    while at > bottom && waiting[at - 1].0 < enter {
+                        waiting.swap(at - 1, at);
+                        at -= 1;
+                    }
+                }
             }
         }
     }
@@ -137,34 +156,51 @@ struct Packing<'a> {
 impl Packing<'_> {
     fn pack(&mut self, bounds: Corners) {
         let sizes = self.sizes();
-        let empty = Node { corners: [outer(&NOWHERE); 2], first: [0; 2], count: [0; 2] };
-        self.nodes.push(empty);
+        self.nodes.push(EMPTY);
         if sizes[0] <= LEAF {
-            let (first, count) = self.leaf(0);
-            self.nodes[0] = Node { corners: [outer(&bounds), outer(&NOWHERE)], first: [first, 0], count: [count, 0] };
+            let leaf = self.leaf(0);
+            self.nodes[0].set(0, &bounds, leaf);
             return;
         }
         // Places in the crate's tree and in ours.
         let mut waiting = vec![(0, 0)];
         while let Some((theirs, ours)) = waiting.pop() {
-            let BvhNode::Node { child_l_index, child_l_aabb, child_r_index, child_r_aabb, .. } = self.tree[theirs]
-            else {
-                unreachable!("a subtree of more than one triangle begins with an inner node")
-            };
-            let children = [(child_l_index, child_l_aabb), (child_r_index, child_r_aabb)];
-            let mut node = empty;
-            for (i, (index, aabb)) in children.into_iter().enumerate() {
-                node.corners[i] = outer(&[aabb.min.coords.into(), aabb.max.coords.into()]);
-                if sizes[index] <= LEAF {
-                    (node.first[i], node.count[i]) = self.leaf(index);
+            let mut node = EMPTY;
+            for (i, (index, corners)) in self.children(theirs, &sizes).into_iter().enumerate() {
+                let child = if sizes[index] <= LEAF {
+                    self.leaf(index)
                 } else {
-                    node.first[i] = self.nodes.len() as u32;
-                    self.nodes.push(empty);
-                    waiting.push((index, node.first[i] as usize));
-                }
+                    let first = self.nodes.len();
+                    self.nodes.push(EMPTY);
+                    waiting.push((index, first));
+                    (first as u32, 0)
+                };
+                node.set(i, &corners, child);
             }
             self.nodes[ours] = node;
         }
+    }
+
+    /// Up to four subtrees that make up an inner node: the largest is opened until there are enough.
+    fn children(&self, root: usize, sizes: &[usize]) -> SmallVec<[(usize, Corners); WIDE]> {
+        let two = |at: usize| {
+            let BvhNode::Node { child_l_index, child_l_aabb, child_r_index, child_r_aabb, .. } = &self.tree[at] else {
+                unreachable!("a subtree of more than one triangle begins with an inner node")
+            };
+            [(*child_l_index, child_l_aabb), (*child_r_index, child_r_aabb)]
+                .map(|(index, aabb)| (index, [aabb.min.coords.into(), aabb.max.coords.into()]))
+        };
+        let mut children = SmallVec::from_iter(two(root));
+        while children.len() < WIDE {
+            let inner = (0..children.len()).filter(|&i| sizes[children[i].0] > LEAF);
+            let Some(largest) = inner.max_by(|&a, &b| area(&children[a].1).total_cmp(&area(&children[b].1))) else {
+                break;
+            };
+            let [left, right] = two(children[largest].0);
+            children[largest] = left;
+            children.push(right);
+        }
+        children
     }
 
     /// Number of triangles below each node.

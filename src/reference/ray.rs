@@ -7,6 +7,9 @@
 /// Corners, metres from the tracer's origin.
 pub type Triangle = [[f64; 3]; 3];
 
+/// Least corners of four boxes, by axis, and their greatest ones.
+pub type Boxes = [[[f32; 4]; 3]; 2];
+
 /// Direction need not be of unit length; distances are in units of it.
 #[derive(Clone, Copy, Debug)]
 pub struct Ray {
@@ -52,17 +55,25 @@ impl Ray {
         Ray { origin, direction, inverse, from_near: shifted(1.0), from_far: shifted(-1.0), axes: [x, y, z], shear }
     }
 
-    /// Distance at which the ray enters a box, if it is inside it somewhere between `near` and `far`. Planes that the
-    /// ray runs in count as inside: NaN is no bound (Ize 2013, "Robust BVH Ray Traversal").
+    /// Distances at which the ray enters boxes, infinite for those that it is not inside of somewhere between `near` and
+    /// `far`. Planes that the ray runs in count as inside: NaN is no bound (Ize 2013, "Robust BVH Ray Traversal").
     #[inline]
-    pub fn enters(&self, corners: &[[f32; 3]; 2], near: f64, far: f64) -> Option<f64> {
-        let (mut enter, mut leave) = (near, far);
+    pub fn enters(&self, boxes: &Boxes, near: f64, far: f64) -> [f64; 4] {
+        let (mut enter, mut leave) = ([near; 4], [far; 4]);
         for (k, inverse) in self.inverse.into_iter().enumerate() {
             let first = usize::from(inverse.is_sign_negative());
-            enter = ((f64::from(corners[first][k]) - self.from_near[k]) * inverse).max(enter);
-            leave = ((f64::from(corners[1 - first][k]) - self.from_far[k]) * inverse).min(leave);
+            let (entries, exits) = (&boxes[first][k], &boxes[1 - first][k]);
+            for i in 0..4 {
+                // Comparisons that NaN fails.
+                let entry = (f64::from(entries[i]) - self.from_near[k]) * inverse;
+                enter[i] = if entry > enter[i] { entry } else { enter[i] };
+                let exit = (f64::from(exits[i]) - self.from_far[k]) * inverse;
+                leave[i] = if exit < leave[i] { exit } else { leave[i] };
+            }
         }
-        (enter <= leave * (1.0 + 4.0 * f64::EPSILON)).then_some(enter)
+        std::array::from_fn(
+            |i| if enter[i] <= leave[i] * (1.0 + 4.0 * f64::EPSILON) { enter[i] } else { f64::INFINITY },
+        )
     }
 
     /// Where the ray's line meets a triangle, from either side; borders count. Triangles seen edge-on are missed.
