@@ -20,6 +20,7 @@ use crate::geometry::roof::CURVE_BANDS;
 use crate::gpu::Renderer;
 use crate::output::prepare_folder;
 use crate::plan::demand::{Camera, Output, Projection, Quality, ViewDemand};
+use crate::scene::Scene;
 use crate::spec::PRESETS;
 use crate::spec::render_spec::{DatasetSpec, OutputSpec};
 
@@ -149,7 +150,7 @@ fn sweep(
     sweep.measure(&mut bench, what, &presets(own), own, &work)?;
     let panels = panels(&mut bench, own)?;
     drop(bench);
-    for knob in scene_knobs(recipe, subject.scene, demand, has_elevation) {
+    for knob in scene_knobs(recipe, subject.scene, gsd(&demand.camera, &built.scene), has_elevation) {
         scene_knob(&mut sweep, &knob, recipe, subject, options, renderer, &work, progress)?;
     }
     progress.end(&format!("{} settings", sweep.rows.len()));
@@ -162,9 +163,8 @@ struct SceneKnob {
     values: Vec<(String, Fineness)>,
 }
 
-fn scene_knobs(recipe: &Recipe, scene: usize, demand: &ViewDemand, has_elevation: bool) -> Vec<SceneKnob> {
+fn scene_knobs(recipe: &Recipe, scene: usize, gsd: f64, has_elevation: bool) -> Vec<SceneKnob> {
     let own = Fineness::of(recipe, scene);
-    let gsd = gsd(&demand.camera);
     let usual = |is: bool| if is { " (usual)" } else { "" };
     let tolerance = |terrain_tolerance_m: f64| {
         let name = format!("{terrain_tolerance_m} m{}", usual(terrain_tolerance_m == TERRAIN_TOLERANCE_M));
@@ -206,10 +206,11 @@ fn scene_knobs(recipe: &Recipe, scene: usize, demand: &ViewDemand, has_elevation
     [has_elevation.then_some(terrain), Some(detail), Some(curves)].into_iter().flatten().collect()
 }
 
-/// Metres of a pixel where the camera's axis enters the scene.
-fn gsd(camera: &Camera) -> f64 {
+/// Metres of a pixel at the distance of the scene's middle.
+fn gsd(camera: &Camera, scene: &Scene) -> f64 {
+    let middle = (scene.bounds.0 + scene.bounds.1) / 2.0;
     let half = match camera.projection {
-        Projection::Perspective { tan_x, .. } => tan_x * camera.near,
+        Projection::Perspective { tan_x, .. } => tan_x * (middle - camera.position).dot(camera.forward),
         Projection::Orthographic { half_x, .. } => half_x,
     };
     2.0 * half / f64::from(camera.width)

@@ -1,6 +1,9 @@
-//! Times and errors → a plot as SVG: both axes logarithmic, the frontier marked. Colours follow the page's theme.
+//! Times and errors → a plot as SVG: both axes logarithmic, the frontier marked.
 
-use std::fmt::Write;
+use std::ops::Range;
+
+use plotters::coord::Shift;
+use plotters::prelude::*;
 
 /// One setting.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,139 +18,90 @@ pub struct Point {
     pub named: bool,
 }
 
-const WIDTH: f64 = 680.0;
-const HEIGHT: f64 = 360.0;
-const LEFT: f64 = 74.0;
-const RIGHT: f64 = 24.0;
-const TOP: f64 = 34.0;
-const BOTTOM: f64 = 48.0;
+/// Pixels.
+const SIZE: (u32, u32) = (680, 360);
+const INK: RGBColor = RGBColor(28, 35, 48);
+const FAINT: RGBColor = RGBColor(201, 207, 217);
+const MARK: RGBColor = RGBColor(194, 65, 12);
+const OTHER: RGBColor = RGBColor(100, 116, 139);
 
-/// Style of plots: ink, faint lines and an accent, for light and dark.
-pub const STYLE: &str = "\
-.plot{color:#1c2330;--faint:#c9cfd9;--mark:#c2410c;--other:#64748b}\
-@media(prefers-color-scheme:dark){.plot{color:#e5e9f0;--faint:#3a4352;--mark:#fb923c;--other:#8fa0b8}}\
-.plot text{fill:currentColor;font:12px system-ui,sans-serif}\
-.plot .title{font-weight:600;font-size:13px}\
-.plot .grid{stroke:var(--faint);stroke-width:1}\
-.plot .way{fill:none;stroke:var(--mark);stroke-width:1.5}\
-.plot .on{fill:var(--mark)}\
-.plot .off{fill:none;stroke:var(--other);stroke-width:1.3}\
-.plot .name{font-size:11px}";
+type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+type Drawn = Result<(), DrawingAreaErrorKind<std::io::Error>>;
 
-/// A logarithmic axis: from data to pixels.
-struct Axis {
-    low: f64,
-    high: f64,
-    from: f64,
-    to: f64,
-}
-
-impl Axis {
-    /// Around the values, with some air; at least a factor of two wide.
-    fn new(values: impl Iterator<Item = f64>, from: f64, to: f64) -> Axis {
-        let logs: Vec<f64> = values.map(libm::log10).collect();
-        let low = logs.iter().copied().fold(f64::INFINITY, f64::min);
-        let high = logs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let air = (0.06 * (high - low)).max(0.15);
-        Axis { low: low - air, high: high + air, from, to }
-    }
-
-    fn at(&self, value: f64) -> f64 {
-        self.from + (libm::log10(value) - self.low) / (self.high - self.low) * (self.to - self.from)
-    }
-
-    /// 1, 2 and 5 of every decade; whole decades alone where there are many.
-    fn ticks(&self) -> Vec<f64> {
-        let steps: &[f64] = if self.high - self.low > 2.5 { &[1.0] } else { &[1.0, 2.0, 5.0] };
-        let decades = self.low.floor() as i32..=self.high.ceil() as i32;
-        let all = decades.flat_map(|d| steps.iter().map(move |s| s * libm::pow(10.0, f64::from(d))));
-        all.filter(|v| (self.low..=self.high).contains(&libm::log10(*v))).collect()
-    }
+/// A logarithmic axis around positive values, with some air; at least a factor of two wide.
+fn axis(values: impl Iterator<Item = f64>) -> Range<f64> {
+    let logs: Vec<f64> = values.map(libm::log10).collect();
+    let low = logs.iter().copied().fold(f64::INFINITY, f64::min);
+    let high = logs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let air = (0.06 * (high - low)).max(0.15);
+    libm::pow(10.0, low - air)..libm::pow(10.0, high + air)
 }
 
 /// The plot; `error_text` writes the errors at the axis. Errors of 0 stand at a third of the least that is not.
 pub fn svg(title: &str, points: &[Point], error_text: &dyn Fn(f64) -> String) -> String {
-    let least = points.iter().map(|p| p.error).filter(|e| *e > 0.0).fold(f64::INFINITY, f64::min);
-    let floor = if least.is_finite() { least / 3.0 } else { 1e-6 };
-    let height = |p: &Point| p.error.max(floor);
-    let mut out = format!(
-        "<svg class=\"plot\" xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" role=\"img\" \
-         aria-label=\"{0}\"><style>{STYLE}</style><text class=\"title\" x=\"{LEFT}\" y=\"18\">{0}</text>",
-        escape(title)
-    );
-    if points.is_empty() {
-        out.push_str("</svg>");
-        return out;
-    }
-    let x = Axis::new(points.iter().map(|p| p.time), LEFT, WIDTH - RIGHT);
-    let y = Axis::new(points.iter().map(height), HEIGHT - BOTTOM, TOP);
-    grid(&mut out, &x, &y, error_text);
-    let mut marked: Vec<&Point> = points.iter().filter(|p| p.marked).collect();
-    marked.sort_by(|a, b| a.time.total_cmp(&b.time));
-    let way: Vec<String> = marked.iter().map(|p| format!("{:.1},{:.1}", x.at(p.time), y.at(height(p)))).collect();
-    let _ = write!(out, "<polyline class=\"way\" points=\"{}\"/>", way.join(" "));
-    for point in points {
-        let (class, radius) = (if point.marked { "on" } else { "off" }, if point.named { 6.0 } else { 3.5 });
-        let _ = write!(
-            out,
-            "<circle class=\"{class}\" cx=\"{:.1}\" cy=\"{:.1}\" r=\"{radius}\"><title>{}: {} in {:.1} ms</title></circle>",
-            x.at(point.time),
-            y.at(height(point)),
-            escape(&point.label),
-            escape(&error_text(point.error)),
-            point.time
-        );
-    }
-    names(&mut out, points, &|p| (x.at(p.time), y.at(height(p))));
-    out.push_str("</svg>");
+    let mut out = String::new();
+    draw(SVGBackend::with_string(&mut out, SIZE).into_drawing_area(), title, points, error_text)
+        .expect("text in memory takes every shape");
     out
 }
 
-fn grid(out: &mut String, x: &Axis, y: &Axis, error_text: &dyn Fn(f64) -> String) {
-    let bottom = HEIGHT - BOTTOM;
-    for tick in x.ticks() {
-        let at = x.at(tick);
-        let _ = write!(
-            out,
-            "<line class=\"grid\" x1=\"{at:.1}\" x2=\"{at:.1}\" y1=\"{TOP}\" y2=\"{bottom}\"/>\
-             <text x=\"{at:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{} ms</text>",
-            bottom + 18.0,
-            plain(tick)
-        );
-    }
-    for tick in y.ticks() {
-        let at = y.at(tick);
-        let _ = write!(
-            out,
-            "<line class=\"grid\" x1=\"{LEFT}\" x2=\"{}\" y1=\"{at:.1}\" y2=\"{at:.1}\"/>\
-             <text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"end\">{}</text>",
-            WIDTH - RIGHT,
-            LEFT - 8.0,
-            at + 4.0,
-            escape(&error_text(tick))
-        );
-    }
-    let middle = (LEFT + WIDTH - RIGHT) / 2.0;
-    let _ = write!(out, "<text x=\"{middle}\" y=\"{}\" text-anchor=\"middle\">time of an image</text>", HEIGHT - 8.0);
+fn draw(area: Area, title: &str, points: &[Point], error_text: &dyn Fn(f64) -> String) -> Drawn {
+    area.fill(&WHITE)?;
+    let least = points.iter().map(|p| p.error).filter(|e| *e > 0.0).fold(f64::INFINITY, f64::min);
+    let floor = if least.is_finite() { least / 3.0 } else { 1e-6 };
+    let place = |p: &Point| (p.time, p.error.max(floor));
+    let (x, y) = if points.is_empty() {
+        (1.0..10.0, 0.01..1.0)
+    } else {
+        (axis(points.iter().map(|p| p.time)), axis(points.iter().map(|p| place(p).1)))
+    };
+    let mut chart = ChartBuilder::on(&area)
+        .caption(title, ("sans-serif", 14).into_font().color(&INK))
+        .margin(8)
+        .margin_right(24)
+        .x_label_area_size(40)
+        .y_label_area_size(70)
+        .build_cartesian_2d(x.log_scale(), y.log_scale())?;
+    chart
+        .configure_mesh()
+        .bold_line_style(FAINT)
+        .light_line_style(WHITE)
+        .axis_style(FAINT)
+        .label_style(("sans-serif", 12).into_font().color(&INK))
+        .x_desc("time of an image")
+        .x_label_formatter(&|ms| format!("{} ms", plain(*ms)))
+        .y_label_formatter(&|error| error_text(*error))
+        .draw()?;
+    let mut marked: Vec<&Point> = points.iter().filter(|p| p.marked).collect();
+    marked.sort_by(|a, b| a.time.total_cmp(&b.time));
+    chart.draw_series(LineSeries::new(marked.into_iter().map(place), MARK.stroke_width(2)))?;
+    chart.draw_series(points.iter().map(|p| {
+        let style = if p.marked { MARK.filled() } else { OTHER.stroke_width(1) };
+        Circle::new(place(p), if p.named { 6 } else { 3 }, style)
+    }))?;
+    let plotting = chart.plotting_area();
+    names(&area, points, &|p| plotting.map_coordinate(&place(p)))?;
+    area.present()
 }
 
-/// Names of the points, those that are looked for first; one that would lie over another is left to its tooltip.
-fn names(out: &mut String, points: &[Point], place: &dyn Fn(&Point) -> (f64, f64)) {
+/// Names of the points, those that are looked for first; one that would lie over another is left out.
+fn names(area: &Area, points: &[Point], place: &dyn Fn(&Point) -> (i32, i32)) -> Drawn {
     let mut order: Vec<&Point> = points.iter().filter(|p| p.named || p.marked).collect();
     order.sort_by_key(|p| !p.named);
-    let mut taken: Vec<(f64, f64, f64)> = Vec::new();
+    let mut taken: Vec<(i32, i32, i32)> = Vec::new();
     for point in order {
         let (x, y) = place(point);
-        let width = 6.0 * point.label.chars().count() as f64;
-        let left = if x + 10.0 + width > WIDTH - 4.0 { x - 10.0 - width } else { x + 10.0 };
-        let y = y - 6.0;
-        let free =
-            |&(l, w, at): &(f64, f64, f64)| (y - at).abs() > 13.0 || left > l + w + 4.0 || l > left + width + 4.0;
-        if left > LEFT && taken.iter().all(free) {
+        let width = 6 * point.label.chars().count() as i32;
+        let left = if x + 10 + width > SIZE.0 as i32 - 4 { x - 10 - width } else { x + 10 };
+        let y = y - 16;
+        let free = |&(l, w, at): &(i32, i32, i32)| (y - at).abs() > 13 || left > l + w + 4 || l > left + width + 4;
+        if left > 74 && taken.iter().all(free) {
             taken.push((left, width, y));
-            let _ = write!(out, "<text class=\"name\" x=\"{left:.1}\" y=\"{y:.1}\">{}</text>", escape(&point.label));
+            let style = ("sans-serif", 11).into_font().color(&INK);
+            area.draw(&Text::new(point.label.clone(), (left, y), style))?;
         }
     }
+    Ok(())
 }
 
 /// A number without needless digits.
@@ -169,13 +123,6 @@ mod tests {
     }
 
     #[test]
-    fn slower_is_farther_right_and_worse_is_higher() {
-        let axis = Axis::new([1.0, 10.0, 100.0].into_iter(), 0.0, 100.0);
-        assert!((axis.at(10.0) - 50.0).abs() < 1e-9 && axis.at(1.0) > 0.0 && axis.at(100.0) < 100.0);
-        assert_eq!(axis.ticks(), [1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0]);
-    }
-
-    #[test]
     fn plots_are_well_formed_whatever_the_values() {
         for points in [
             vec![],
@@ -183,10 +130,23 @@ mod tests {
             vec![point(1.0, 0.5, true), point(1.0, 0.5, true), point(2000.0, 0.0, false)],
         ] {
             let svg = svg("a & b", &points, &|e| format!("{e}"));
-            assert_eq!(svg.matches("<circle").count(), points.len());
+            assert_eq!(svg.matches("<circle").count(), points.len(), "{svg}");
             assert!(!svg.contains("NaN") && !svg.contains("inf") && !svg.contains("a & b"), "{svg}");
             let mut reader = quick_xml::Reader::from_str(&svg);
             while reader.read_event().expect("it is XML") != quick_xml::events::Event::Eof {}
         }
+    }
+
+    #[test]
+    fn slower_is_farther_right_and_worse_is_higher() {
+        let svg = svg("t", &[point(10.0, 0.5, false), point(100.0, 0.05, false)], &|e| format!("{e}"));
+        let number = |key: &str| -> Vec<i32> {
+            svg.split("<circle")
+                .skip(1)
+                .map(|c| c.split_once(&format!("{key}=\"")).unwrap().1.split('"').next().unwrap().parse().unwrap())
+                .collect()
+        };
+        let (x, y) = (number("cx"), number("cy"));
+        assert!(x[0] < x[1] && y[0] < y[1], "{svg}");
     }
 }
