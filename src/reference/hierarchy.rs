@@ -190,7 +190,7 @@ impl Packing<'_> {
             [(*child_l_index, child_l_aabb), (*child_r_index, child_r_aabb)]
                 .map(|(index, aabb)| (index, [aabb.min.coords.into(), aabb.max.coords.into()]))
         };
-        let mut children = SmallVec::from_iter(two(root));
+        let mut children: SmallVec<[(usize, Corners); WIDE]> = SmallVec::from_iter(two(root));
         while children.len() < WIDE {
             let inner = (0..children.len()).filter(|&i| sizes[children[i].0] > LEAF);
             let Some(largest) = inner.max_by(|&a, &b| area(&children[a].1).total_cmp(&area(&children[b].1))) else {
