@@ -73,9 +73,9 @@ impl Node {
     fn set(&mut self, child: usize, corners: &Corners, (first, count): (u32, u32)) {
         let least = |c: f64| if f64::from(c as f32) > c { (c as f32).next_down() } else { c as f32 };
         let greatest = |c: f64| if f64::from(c as f32) < c { (c as f32).next_up() } else { c as f32 };
-        for k in 0..3 {
-            (self.boxes[0][k][child], self.boxes[1][k][child]) = (least(corners[0][k]), greatest(corners[1][k]));
-        }
+        let [low, high] = &mut self.boxes;
+        low.iter_mut().zip(corners[0]).for_each(|(axis, c)| axis[child] = least(c));
+        high.iter_mut().zip(corners[1]).for_each(|(axis, c)| axis[child] = greatest(c));
         (self.first[child], self.count[child]) = (first, count);
     }
 }
