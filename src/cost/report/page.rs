@@ -55,7 +55,7 @@ pub fn html(sweep: &Sweep, about: &About, panels: &[Panel]) -> String {
     lead(&mut out, sweep, about);
     presets(&mut out, sweep, about);
     out.push_str("<h2>All settings</h2><p>Each point is a setting: to the left is faster, below is better. The line joins those that no other \
-                  setting beats in both. Point at one for its name.</p><div class=\"plots\">");
+                  setting beats in both.</p><div class=\"plots\">");
     for metric in Metric::ALL {
         if let Some(plot) = frontier_plot(sweep, about, metric) {
             let _ = write!(out, "<figure>{plot}</figure>");
