@@ -28,7 +28,7 @@ const NARROW: f32 = 0.585;
 // Cosine and sine of the golden angle.
 const TURN = vec2<f32>(-0.73736888, 0.67549029);
 
-// What every look needs, read once: software adapters read buffers slowly.
+// What every look needs.
 struct Look {
     at: vec3<f32>,
     slope: vec2<f32>,
