@@ -20,6 +20,7 @@
 //! A module uses only what stands above it in this list; `tests/it/tidy.rs` holds us to it.
 
 pub mod cga;
+pub mod comparison;
 pub mod cost;
 pub mod dataset;
 pub mod diagnostics;
@@ -28,6 +29,8 @@ pub mod geodata;
 pub mod geometry;
 pub mod gpu;
 pub mod interpreter;
+pub mod language_server;
+pub mod live;
 pub mod output;
 pub mod parsing;
 pub mod pipeline;
@@ -38,3 +41,4 @@ pub mod sensor;
 pub mod source;
 pub mod spec;
 pub mod town;
+pub mod window;

@@ -23,6 +23,10 @@ const ORDER: &[&str] = &[
     "cost",
     "dataset",
     "pipeline",
+    "comparison",
+    "live",
+    "window",
+    "language_server",
 ];
 
 /// Modules that import nothing of ours.
