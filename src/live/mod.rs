@@ -12,7 +12,7 @@ mod update;
 mod usage;
 mod watcher;
 
-pub use canvas::{Canvas, Drawing};
+pub use canvas::{Canvas, Drawing, Shown, demand_of};
 pub use overrides::{AttributeOverride, Overrides, SunAngles};
 pub use picking::{LeafInfo, LotInfo, Ray};
 pub use session::{RuleFile, Session};

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::diagnostics::{Diagnostic, Rendered, Severity, render};
+use crate::diagnostics::{Diagnostic, Rendered, render};
 use crate::source::SourceMap;
 
 /// One round of bringing everything up to date.
@@ -91,7 +91,7 @@ impl Message {
         let place = MessagePlace { file: file.to_owned(), line, column, end_line, end_column };
         Message {
             code: code.to_owned(),
-            severity,
+            severity: if severity == "warning" { "warning" } else { "error" },
             message: message.to_owned(),
             place: Some(place),
             help: help.map(str::to_owned),
@@ -120,9 +120,4 @@ impl Update {
     pub fn json_line(&self) -> String {
         serde_json::to_string(self).expect("plain strings and numbers serialise")
     }
-}
-
-/// Whether any diagnostic is an error.
-pub(super) fn failed<'a>(mut list: impl Iterator<Item = &'a Diagnostic>) -> bool {
-    list.any(|d| d.severity == Severity::Error)
 }
