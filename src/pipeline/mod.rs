@@ -40,6 +40,6 @@ pub use progress::{Progress, Silent};
 pub use recipe::{Recipe, RecipeOptions, load_recipe};
 pub use render::{RenderOptions, RenderSummary, render_dataset};
 pub use single::single_scene;
-pub use validation::{DefectTotal, FeatureChecks, Validation};
 pub use usage::{RuleTotal, rule_totals};
+pub use validation::{DefectTotal, FeatureChecks, Validation};
 pub use views::{PlannedRecipe, drawn_views, plan_views};

@@ -113,7 +113,8 @@ impl Loader<'_> {
     fn composed(&mut self, color: Option<Texture>, opacity: Option<Texture>) -> Option<Texture> {
         let pixels = |texture: &Option<Texture>| texture.as_ref().map(|texture| texture.pixels.clone());
         let of = [pixels(&color), pixels(&opacity)];
-        let name = |texture: &Option<Texture>| texture.as_ref().map_or_else(String::new, |texture| texture.name.to_string());
+        let name =
+            |texture: &Option<Texture>| texture.as_ref().map_or_else(String::new, |texture| texture.name.to_string());
         let key: Arc<str> = format!("{}|{}", name(&color), name(&opacity)).into();
         let is_same = |a: &Option<Arc<RgbaImage>>, b: &Option<Arc<RgbaImage>>| match (a, b) {
             (Some(a), Some(b)) => Arc::ptr_eq(a, b),

@@ -7,8 +7,12 @@ use super::*;
 #[track_caller]
 fn batch(rules: &str, lots: &[&[(f64, f64)]]) -> Vec<Vec<String>> {
     let program = compiled(rules);
-    let lot =
-        |corners: &&[(f64, f64)]| Member { program: &program, start: start(ground(corners), 0).into(), is_in: 1, sees: 1 };
+    let lot = |corners: &&[(f64, f64)]| Member {
+        program: &program,
+        start: start(ground(corners), 0).into(),
+        is_in: 1,
+        sees: 1,
+    };
     let lots: Vec<Member> = lots.iter().map(lot).collect();
     let limits = Limits::default();
     let batch = Batch::new(&lots, &NoAssets, &limits);
