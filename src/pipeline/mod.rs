@@ -33,7 +33,7 @@ pub use cost::{CostOptions, CostSummary, measure_cost};
 pub use error::PipelineError;
 pub use portrait::portrait;
 pub use progress::{Progress, Silent};
-pub use recipe::{Recipe, RecipeOptions, load_recipe};
+pub use recipe::{Recipe, RecipeOptions, load_recipe, load_recipe_over};
 pub use render::{RenderOptions, RenderSummary, render_dataset};
 pub use single::single_scene;
 pub use validation::{DefectTotal, FeatureChecks, Validation};

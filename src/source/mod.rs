@@ -7,6 +7,6 @@ mod access;
 mod map;
 mod project;
 
-pub use access::{Access, AccessError, MOST_TEXT_BYTES, read_regular};
+pub use access::{Access, AccessError, MOST_TEXT_BYTES, Overlay, read_regular};
 pub use map::{Place, SourceFile, SourceId, SourceMap, Span};
 pub use project::Project;
