@@ -108,11 +108,6 @@ impl<'t> Lines<'t> {
         at as u32
     }
 
-    /// Number of lines; a text that ends in a line end has an empty last one.
-    pub fn count(&self) -> u32 {
-        self.starts.len() as u32
-    }
-
     /// Line of a byte offset, from 0.
     pub fn line(&self, offset: u32) -> u32 {
         self.starts.partition_point(|start| *start <= offset) as u32 - 1

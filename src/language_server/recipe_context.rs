@@ -79,8 +79,8 @@ pub enum Spot {
     AttributeValue,
     /// Inside `[ ]` of a filter.
     Filter,
-    /// A text that begins at this offset; what it is, the spot around it says.
-    Text(u32, Box<Spot>),
+    /// Inside a text; what it is, the spot around it says.
+    Text(Box<Spot>),
 }
 
 /// The spot at `offset` and where the word begins that ends there.
@@ -95,7 +95,7 @@ pub fn spot(text: &str, offset: u32) -> (Spot, u32) {
         }
         Some(t) if t.kind == TokenKind::Text && (at < t.end || !closed(t)) => {
             let around = outside(text, &all, t.start);
-            (Spot::Text(t.start as u32 + 1, Box::new(around)), t.start as u32 + 1)
+            (Spot::Text(Box::new(around)), t.start as u32 + 1)
         }
         Some(t) if t.kind == TokenKind::Number => (Spot::Nothing, offset),
         Some(t) if matches!(t.kind, TokenKind::Word | TokenKind::Input) => {
@@ -263,7 +263,7 @@ mod tests {
 
     #[test]
     fn texts_and_comments() {
-        assert!(matches!(at("scene a { rules \"x¦"), Spot::Text(17, around) if matches!(*around, Spot::Value { .. })));
+        assert!(matches!(at("scene a { rules \"x¦"), Spot::Text(around) if matches!(*around, Spot::Value { .. })));
         assert!(matches!(at("# scene¦"), Spot::Nothing));
     }
 }

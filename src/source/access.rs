@@ -6,6 +6,8 @@ use std::io::{self, Read};
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
+use super::looked::Looked;
+
 /// Why a path could not be used.
 #[derive(Debug, thiserror::Error)]
 pub enum AccessError {
@@ -47,14 +49,28 @@ pub struct Access {
     /// Canonical folders.
     roots: Vec<PathBuf>,
     overlay: Overlay,
+    /// Where every path that is looked for is written down.
+    looked: Option<Looked>,
 }
 
 impl Access {
     /// Allows `root` and everything below it.
     pub fn new(root: &Path) -> Result<Self, AccessError> {
-        let mut access = Access { roots: Vec::new(), overlay: Overlay::default() };
+        let mut access = Access { roots: Vec::new(), overlay: Overlay::default(), looked: None };
         access.allow(root)?;
         Ok(access)
+    }
+
+    /// The same folders; every path that is looked for from now on is written down.
+    pub fn noting(&self, looked: Looked) -> Access {
+        Access { looked: Some(looked), ..self.clone() }
+    }
+
+    /// Writes down a path that is looked for, whether it exists or not, or a folder that is listed.
+    pub fn note(&self, path: &Path) {
+        if let Some(looked) = &self.looked {
+            looked.note(path);
+        }
     }
 
     /// Allows one more folder tree.
@@ -90,6 +106,7 @@ impl Access {
     pub fn resolve(&self, base: &Path, named: &str) -> Result<PathBuf, AccessError> {
         check_name(named)?;
         let joined = if base.as_os_str().is_empty() { PathBuf::from(named) } else { base.join(named) };
+        self.note(&joined);
         match joined.canonicalize() {
             Ok(real) if self.allows(&real) => Ok(real),
             Err(source) => match nearest_real(&joined) {
