@@ -110,8 +110,8 @@ fn outside(text: &str, all: &[Token], at: usize) -> Spot {
     let before: Vec<&Token> = all.iter().filter(|t| t.end <= at && t.kind != TokenKind::Comment).collect();
     let written = |t: &Token| &text[t.start..t.end];
     let Some(open) = block_start(text, &before) else { return top(text, &before, at) };
-    let head: Vec<&str> = before[..open].iter().rev().map_while(|t| head_word(text, t)).collect();
-    let Some(block) = head.last().and_then(|kind| BlockShape::find(kind)) else { return Spot::Nothing };
+    let mut head = before[..open].iter().rev().map_while(|t| head_word(text, t));
+    let Some(block) = head.find_map(BlockShape::find) else { return Spot::Nothing };
     // Properties of the block, up to the place.
     let (mut key, mut clause): (Option<&'static Key>, Option<String>) = (None, None);
     let mut file: Option<String> = None;

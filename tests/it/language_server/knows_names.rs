@@ -68,7 +68,7 @@ fn references_are_found_in_files_that_are_not_open() {
         "textDocument": { "uri": editor.uri("main.cga") }, "position": at[0], "context": { "includeDeclaration": true },
     });
     let found = editor.request("textDocument/references", params).expect("references");
-    assert_eq!(places(&editor, &found), ["main.cga:1:5", "main.cga:2:13", "town.render:4:43"]);
+    assert_eq!(places(&editor, &found), ["main.cga:1:5", "main.cga:2:13", "town.render:4:44"]);
     let marked = MAIN.replace("Other(height)", "Other(h¦eight)");
     let lights = asked(&mut editor, "textDocument/documentHighlight", "main.cga", &marked).expect("highlights");
     let kinds: Vec<&Value> = lights.as_array().expect("a list").iter().map(|light| &light["kind"]).collect();
