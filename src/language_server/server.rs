@@ -17,6 +17,7 @@ use lsp_types::{
 };
 use serde::Serialize;
 use serde::de::DeserializeOwned;
+use serde_json::json;
 
 use super::capabilities::{capabilities, client};
 use super::derivation::Derived;
@@ -296,6 +297,7 @@ impl Server {
         }
         // A notification that cannot be read is dropped, as the protocol has it: nobody waits for an answer.
         match method.as_str() {
+            told::Initialized::METHOD if self.workspace.client.registers_watchers => self.watch_files(),
             told::DidOpenTextDocument::METHOD => read(params).into_iter().for_each(|p| self.opened(p)),
             told::DidChangeTextDocument::METHOD => read(params).into_iter().for_each(|p| self.changed(p)),
             told::DidCloseTextDocument::METHOD => read(params).into_iter().for_each(|p| self.closed(p)),
@@ -330,9 +332,24 @@ impl Server {
         }
     }
 
+    /// Asks the client to tell when rule files or recipes change on disk.
+    fn watch_files(&mut self) {
+        self.next_id += 1;
+        let method = told::DidChangeWatchedFiles::METHOD;
+        let watched = json!({ "watchers": [{ "globPattern": "**/*.{cga,render}" }] });
+        let registration = json!({ "id": "files", "method": method, "registerOptions": watched });
+        let params = json!({ "registrations": [registration] });
+        let method = <asked::RegisterCapability as asked::Request>::METHOD.to_owned();
+        (self.send)(Request::new(RequestId::from(self.next_id), method, params).into());
+    }
+
     fn opened(&mut self, params: DidOpenTextDocumentParams) {
         let opened = params.text_document;
-        let path = self.workspace.path(&opened.uri);
+        let mut path = self.workspace.path(&opened.uri);
+        if Language::of(&path).is_none() && uri::path(&opened.uri).is_none() {
+            // A document that was never saved has no ending yet.
+            path.as_mut_os_string().push(format!(".{}", opened.language_id));
+        }
         let document = Document { uri: opened.uri, version: opened.version, text: opened.text.into() };
         self.workspace.documents.open(path, document);
         self.forget_everything();
