@@ -143,7 +143,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn offsets_come_back(text in "[a\u{e4}\u{1d11e}\r\n]{0,30}", encoding in 0..3) {
+        fn offsets_come_back(text in "[a\u{e4}\u{1d11e}\r\n]{0,30}", encoding in 0..3usize) {
             let encoding = [Encoding::Utf8, Encoding::Utf16, Encoding::Utf32][encoding];
             let starts = line_starts(&text);
             let lines = Lines::new(&text, &starts, encoding);

@@ -84,6 +84,7 @@ pub fn serve(connection: Connection) -> Ending {
         stage: Stage::New,
         unpublished: BTreeSet::new(),
         next_id: 0,
+        derives: false,
     };
     server.run()
 }
@@ -109,6 +110,8 @@ struct Server {
     unpublished: BTreeSet<PathBuf>,
     /// Of our own requests.
     next_id: i32,
+    /// Whether a derivation runs.
+    derives: bool,
 }
 
 impl Server {
@@ -257,12 +260,16 @@ impl Server {
                 let result = requests::execute_command::explain(&params.arguments);
                 self.respond(id, result);
             }
+            requests::execute_command::DERIVE if self.derives => {
+                self.refuse(id, ErrorCode::RequestFailed, "a derivation is running already");
+            }
             requests::execute_command::DERIVE => {
                 let work = requests::execute_command::derive(&mut self.workspace, &params.arguments);
                 let Ok(work) = work else {
                     return self.respond::<()>(id, work.map(|_| ()));
                 };
                 let ours = self.ours.clone();
+                self.derives = true;
                 std::thread::spawn(move || {
                     let done = Derived { id: Some(id), ..work.run() };
                     // The server may have ended meanwhile.
@@ -276,6 +283,7 @@ impl Server {
     /// A derivation has ended: its counts are shown.
     fn derived(&mut self, done: Derived) {
         let Derived { id, outcome } = done;
+        self.derives = false;
         let result = outcome.map(|(lenses, summary)| {
             self.workspace.lenses = lenses;
             summary

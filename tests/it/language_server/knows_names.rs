@@ -81,6 +81,24 @@ fn renamed(editor: &mut Editor, name: &str, marked: &str, new: &str) -> Result<V
     editor.request("textDocument/rename", params)
 }
 
+#[test]
+fn the_name_of_an_import_is_changed_in_recipes_too() {
+    let main = "import lib : \"lib.cga\"\n@StartRule\nLot --> lib.Wall(lib.depth)\n";
+    let recipe = "scene town {\n  map \"town.osm\"\n  rules \"main.cga\" for building { \"lib.depth\" = 4 }\n}\n";
+    let lib = "attr depth = 3\nWall(h) --> extrude(h)\n";
+    let mut editor = Editor::new(&[("lib.cga", lib), ("main.cga", main), ("town.render", recipe)]);
+    editor.open("main.cga", main);
+    let edit = renamed(&mut editor, "main.cga", &main.replace("import lib", "import l¦ib"), "walls").expect("a rename");
+    let changed = |name: &str, text: &str| {
+        edited(text, edit["changes"][editor.uri(name)].as_array().expect("edits of this file"))
+    };
+    assert_eq!(
+        changed("main.cga", main),
+        main.replace("import lib", "import walls").replace("lib.W", "walls.W").replace("lib.d", "walls.d")
+    );
+    assert_eq!(changed("town.render", recipe), recipe.replace("lib.depth", "walls.depth"));
+}
+
 /// All files after the edits, one below the other.
 fn after(editor: &Editor, edit: &Value) -> String {
     let mut out = String::new();
