@@ -10,6 +10,7 @@ mod determinism;
 mod diagnostics;
 mod golden;
 mod hard_cases;
+mod highlighting;
 mod manual;
 mod pipeline;
 mod projects;

@@ -26,7 +26,7 @@ pub enum Command {
         /// Report what rule files written for CityEngine meet here; folders are searched for .cga files
         #[arg(long)]
         cityengine: bool,
-        /// `json` prints one object per line
+        /// `json` prints one object per line, `short` one line per mistake (per folder with `--cityengine`)
         #[arg(long, value_enum, default_value_t = Format::Text)]
         format: Format,
         #[command(flatten)]
@@ -224,6 +224,8 @@ pub struct DeriveArgs {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Format {
     Text,
+    /// `FILE:LINE:COLUMN: error[CODE]: MESSAGE`, as editors read it
+    Short,
     Json,
 }
 
