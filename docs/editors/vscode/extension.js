@@ -5,6 +5,8 @@ const vscode = require("vscode");
 const { LanguageClient, TransportKind } = require("vscode-languageclient/node");
 
 const LANGUAGES = ["cga", "mansard-render"];
+/** Documents `mansard-explain:CODE.md` are pages of `mansard explain`. */
+const EXPLAIN = "mansard-explain";
 
 /** @type {LanguageClient | undefined} */
 let client;
@@ -25,8 +27,16 @@ async function start() {
     { run, debug: run },
     {
       documentSelector: LANGUAGES.map((language) => ({ language })),
-      initializationOptions: { recipe: settings().get("recipe", ""), allow: settings().get("allow", []) },
-      synchronize: { fileEvents: vscode.workspace.createFileSystemWatcher("**/*.{cga,render}") },
+      initializationOptions: {
+        recipe: settings().get("recipe") || undefined,
+        set: settings().get("set", []),
+        allow: settings().get("allow", []),
+        explainScheme: EXPLAIN,
+      },
+      synchronize: {
+        configurationSection: "mansard",
+        fileEvents: vscode.workspace.createFileSystemWatcher("**/*.{cga,render}"),
+      },
     },
   );
   try {
@@ -80,6 +90,13 @@ function activate(context) {
       const terminal = vscode.window.createTerminal({ name: "mansard watch", shellPath: program(), shellArgs: ["watch", file] });
       terminal.show(true);
     }),
+    vscode.workspace.registerTextDocumentContentProvider(EXPLAIN, {
+      provideTextDocumentContent: (uri) =>
+        client?.sendRequest("workspace/executeCommand", {
+          command: "mansard.explain",
+          arguments: [uri.path.replace(/\.md$/, "")],
+        }),
+    }),
     vscode.tasks.registerTaskProvider("mansard", {
       provideTasks() {
         const document = vscode.window.activeTextEditor?.document;
@@ -88,7 +105,7 @@ function activate(context) {
       resolveTask: (task) => checkTask(task.definition.file, task.definition),
     }),
     vscode.workspace.onDidChangeConfiguration(async (change) => {
-      if (change.affectsConfiguration("mansard") && !change.affectsConfiguration("mansard.trace")) {
+      if (change.affectsConfiguration("mansard.path")) {
         await stop();
         await start();
       }
