@@ -5,6 +5,7 @@
 //! instance with its own rules and attributes, named with its prefix (`lib.Wall`). A style is chosen at compile time.
 
 mod expression;
+pub mod fingerprint;
 mod needs;
 mod successor;
 
@@ -199,6 +200,16 @@ impl Program {
     /// Rules marked as start rules, in source order; the first is the host's default.
     pub fn start_rules(&self) -> &[RuleId] {
         &self.start_rules
+    }
+
+    /// The rule that a derivation starts with: the one the host names, without parameters, else the first start rule,
+    /// else the first rule without parameters.
+    pub fn start(&self, wanted: Option<&str>) -> Option<RuleId> {
+        if let Some(name) = wanted {
+            return self.rule_named(name, 0);
+        }
+        let first = || self.rules.iter().position(|rule| rule.parameters.is_empty());
+        self.start_rules.first().copied().or_else(|| first().map(|number| RuleId(number as u32)))
     }
 
     /// The rule a host names, with this number of parameters.
