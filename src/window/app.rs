@@ -55,10 +55,13 @@ pub struct App {
 impl App {
     pub fn new(options: Options, say: Say, builder: Builder, drawer: Drawer) -> App {
         let name = options.recipe.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let mut desk = Desk::new(name);
+        desk.view_name = options.view.clone().unwrap_or_default();
+        (desk.show, desk.overrides.scene) = (options.show, options.scene.clone());
         App {
             options,
             say,
-            desk: Desk::new(name),
+            desk,
             canvas: Canvas::default(),
             builder,
             drawer,

@@ -208,9 +208,7 @@ pub fn snapped(value: f64, widget: &Widget) -> f64 {
             min + steps * step
         }
         Widget::Slider { min, max, .. } => value.clamp(*min, *max),
-        Widget::Number { min, max } => {
-            value.max(min.unwrap_or(f64::NEG_INFINITY)).min(max.unwrap_or(f64::INFINITY))
-        }
+        Widget::Number { min, max } => value.max(min.unwrap_or(f64::NEG_INFINITY)).min(max.unwrap_or(f64::INFINITY)),
         Widget::Checkbox | Widget::Choice(_) | Widget::Colour | Widget::Text => value,
     }
 }

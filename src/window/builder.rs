@@ -6,10 +6,11 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
+use super::error::WindowError;
 use super::mailbox::Mailbox;
 use super::report::{Report, Tell};
 use super::shown::Shown;
-use crate::live::{Overrides, Ray, Session, WatchError, Watcher};
+use crate::live::{Overrides, Ray, Session, Watcher};
 use crate::plan::demand::State;
 
 /// How long the watching thread waits before it looks whether other files are to be followed.
@@ -43,10 +44,11 @@ pub struct Builder {
 
 impl Builder {
     /// Starts the thread, and one that follows the session's files.
-    pub fn start(session: Session, overrides: Overrides, tell: Tell) -> Result<Builder, super::error::WindowError> {
-        let watcher = Watcher::new()?;
+    pub fn start(session: Session, overrides: Overrides, tell: Tell) -> Result<Builder, WindowError> {
         let mailbox: Arc<Mailbox<Orders>> = Arc::default();
         let (stop, quit) = (session.stop(), Arc::new(AtomicBool::new(false)));
+        let overtaken = stop.clone();
+        let watcher = Watcher::new(move || overtaken.store(true, Ordering::Release))?;
         let builder = Builder { mailbox: mailbox.clone(), stop, quit: quit.clone() };
         let files: Files = Arc::default();
         let (saved, followed) = (builder.notifier(), files.clone());
@@ -71,11 +73,8 @@ impl Builder {
     }
 
     fn notifier(&self) -> impl Fn() + Send + use<> {
-        let (mailbox, stop) = (self.mailbox.clone(), self.stop.clone());
-        move || {
-            stop.store(true, Ordering::Release);
-            mailbox.post(|orders| orders.update = true);
-        }
+        let mailbox = self.mailbox.clone();
+        move || mailbox.post(|orders| orders.update = true)
     }
 }
 

@@ -3,9 +3,7 @@
 /// Why there is no window.
 #[derive(Debug, thiserror::Error)]
 pub enum WindowError {
-    #[error(
-        "there is no display to open a window on ({reason}); `mansard watch --headless` does the same without one"
-    )]
+    #[error("there is no display to open a window on ({reason}); `mansard watch --headless` does the same without one")]
     NoDisplay { reason: String },
     #[error(
         "no graphics adapter can draw into a window here ({reason}); on Debian the package mesa-vulkan-drivers gives one \

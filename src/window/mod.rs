@@ -33,6 +33,7 @@ use report::{Report, Tell};
 use crate::live::{Overrides, Session};
 use crate::pipeline::RecipeOptions;
 
+pub use desk::Show;
 pub use error::WindowError;
 
 /// What the command line says.
@@ -44,6 +45,10 @@ pub struct Options {
     pub screenshots: PathBuf,
     /// Of the window, logical pixels.
     pub size: (u32, u32),
+    /// To begin with, by name; the recipe's first otherwise.
+    pub view: Option<String>,
+    pub scene: Option<String>,
+    pub show: Show,
 }
 
 /// Hears of updates and events, one line of JSON each; see `docs/watch.md`.
@@ -57,7 +62,8 @@ pub fn run(options: Options, say: Say) -> Result<(), WindowError> {
     // After the window was closed nobody listens.
     let tell: Tell = Arc::new(move |report| drop(proxy.send_event(report)));
     let session = Session::open(&options.recipe, options.recipe_options.clone());
-    let builder = Builder::start(session, Overrides::default(), tell.clone())?;
+    let overrides = Overrides { scene: options.scene.clone(), ..Overrides::default() };
+    let builder = Builder::start(session, overrides, tell.clone())?;
     let drawer = Drawer::start(tell)?;
     let mut app = app::App::new(options, say, builder, drawer);
     events.run_app(&mut app).map_err(|error| no_display(&error))?;

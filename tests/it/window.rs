@@ -184,7 +184,10 @@ fn the_window_shows_edits_and_answers_clicks() {
 
     // The first picture is the recipe's view.
     let first = watch.frame(1);
-    assert_eq!((&first["exact"], &first["show"][0], &first["view"]), (&true.into(), &"after".into(), &"town_top_1".into()));
+    assert_eq!(
+        (&first["exact"], &first["show"][0], &first["view"]),
+        (&true.into(), &"after".into(), &"town_top_1".into())
+    );
     let [_, _, width, height] = rect(&first);
     assert!((width / height - 200.0 / 150.0).abs() < 0.02, "the picture has the shape of the recipe's: {first}");
     until("red walls on the screen", || share_of(&display, &first, 0) > 0.01);
@@ -254,7 +257,9 @@ fn states_views_and_hands() {
     let first = watch.frame(1);
     let (x, y) = screen_point(&first, 0.5, 0.5);
     display.move_to(x, y);
-    for (key, shown) in [('1', vec!["before"]), ('3', vec!["mask"]), ('s', vec!["before", "after"]), ('2', vec!["after"])] {
+    for (key, shown) in
+        [('1', vec!["before"]), ('3', vec!["mask"]), ('s', vec!["before", "after"]), ('2', vec!["after"])]
+    {
         display.key(key);
         let is = |line: &Value| line["event"] == "frame" && line["show"] == serde_json::json!(shown);
         let frame = watch.wait("another state", is);

@@ -185,6 +185,12 @@ pub struct WatchArgs {
     /// No window: one line of JSON per update on standard output, and the picture in a file
     #[arg(long)]
     pub headless: bool,
+    /// Print updates and what happens in the window as lines of JSON
+    #[arg(long, conflicts_with = "headless")]
+    pub json: bool,
+    /// Folder of the window's screenshots
+    #[arg(long, value_name = "DIR", default_value = ".")]
+    pub screenshots: PathBuf,
     /// The picture, written whole after every update that changes it
     #[arg(long, value_name = "FILE", requires = "headless")]
     pub png: Option<PathBuf>,

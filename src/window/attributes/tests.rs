@@ -9,8 +9,7 @@ use crate::cga::{CompileOptions, compile_text};
 use crate::source::SourceMap;
 
 fn of(text: &str) -> Vec<Node> {
-    let (program, diagnostics) =
-        compile_text("test.cga", text, &mut SourceMap::default(), &CompileOptions::default());
+    let (program, diagnostics) = compile_text("test.cga", text, &mut SourceMap::default(), &CompileOptions::default());
     panel(&program.unwrap_or_else(|| panic!("{diagnostics:?}")))
 }
 

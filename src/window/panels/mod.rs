@@ -20,10 +20,15 @@ pub use picture::Canvas;
 #[derive(Clone, Debug, PartialEq)]
 pub enum Action {
     /// Something else is to be seen. `moving`: more of it will follow at once.
-    Look { moving: bool },
+    Look {
+        moving: bool,
+    },
     /// Overrides changed.
     Choose,
-    Pick { kind: Kind, at: Pixel },
+    Pick {
+        kind: Kind,
+        at: Pixel,
+    },
     Deselect,
     Screenshot,
     Copy(String),
@@ -34,16 +39,15 @@ pub fn show(ui: &mut egui::Ui, desk: &mut Desk, canvas: &mut Canvas, actions: &m
     status::show(ui, desk);
     diagnostics::show(ui, desk, actions);
     left::show(ui, desk, actions);
-    egui::Panel::right("facts")
-        .default_size(330.0)
-        .size_range(260.0..=520.0)
-        .frame(super::theme::side())
-        .show(ui, |ui| {
+    egui::Panel::right("facts").default_size(330.0).size_range(260.0..=520.0).frame(super::theme::side()).show(
+        ui,
+        |ui| {
             egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
                 selection::show(ui, desk, actions);
                 attributes::show(ui, desk, actions);
             });
-        });
+        },
+    );
     picture::show(ui, desk, canvas, actions);
     help::show(ui, desk);
 }

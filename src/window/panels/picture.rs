@@ -218,7 +218,11 @@ fn drag(ui: &Ui, response: &egui::Response, place: &Place, desk: &mut Desk, canv
         }
         let Some(viewpoint) = &mut desk.viewpoint else { return false };
         let (across, down, length) = (f64::from(by.x) * TURN, f64::from(by.y) * TURN, f64::from(by.length()));
-        if desk.flying { viewpoint.look(-across, -down, length) } else { viewpoint.orbit(across, down, length) }
+        if desk.flying {
+            viewpoint.look(-across, -down, length)
+        } else {
+            viewpoint.orbit(across, down, length)
+        }
         return true;
     };
     let held = match canvas.held {
@@ -289,4 +293,3 @@ fn bar(ui: &Ui, desk: &mut Desk, canvas: &Canvas) {
         painter.line_segment(line, grey);
     }
 }
-

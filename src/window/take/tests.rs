@@ -4,7 +4,8 @@ use super::*;
 use crate::plan::demand::Projection;
 use crate::plan::effects::Look;
 
-const QUALITY: Quality = Quality { supersample: 3, shadow_map: 4096, shadow_samples: 5, sky_samples: 64, field_map: 1024 };
+const QUALITY: Quality =
+    Quality { supersample: 3, shadow_map: 4096, shadow_samples: 5, sky_samples: 64, field_map: 1024 };
 
 fn camera() -> Camera {
     let (right, up, forward) = crate::plan::view::frame(20.0, 180.0, 0.0);

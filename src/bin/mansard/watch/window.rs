@@ -2,9 +2,9 @@
 
 use std::io::Write;
 
-use mansard::window::{Options, run as open};
+use mansard::window::{Options, Show, run as open};
 
-use crate::args::WatchArgs;
+use crate::args::{ShownName, WatchArgs};
 use crate::report::Failure;
 
 /// Of the window when it opens, logical pixels.
@@ -16,6 +16,13 @@ pub fn run(args: &WatchArgs) -> Result<(), Failure> {
         recipe_options: args.options.recipe()?,
         screenshots: args.screenshots.clone(),
         size: SIZE,
+        view: args.view.clone(),
+        scene: args.scene.clone(),
+        show: match args.state {
+            ShownName::Before => Show::Before,
+            ShownName::After => Show::After,
+            ShownName::Mask => Show::Mask,
+        },
     };
     let json = args.json;
     let say = move |line: &str| {
