@@ -4,6 +4,8 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::{Component, Path, PathBuf};
 
+use super::looked::Looked;
+
 /// Why a path could not be used.
 #[derive(Debug, thiserror::Error)]
 pub enum AccessError {
@@ -29,14 +31,28 @@ const LONGEST_NAME: usize = 4096;
 pub struct Access {
     /// Canonical folders.
     roots: Vec<PathBuf>,
+    /// Where every path that is looked for is written down.
+    looked: Option<Looked>,
 }
 
 impl Access {
     /// Allows `root` and everything below it.
     pub fn new(root: &Path) -> Result<Self, AccessError> {
-        let mut access = Access { roots: Vec::new() };
+        let mut access = Access { roots: Vec::new(), looked: None };
         access.allow(root)?;
         Ok(access)
+    }
+
+    /// The same folders; every path that is looked for from now on is written down.
+    pub fn noting(&self, looked: Looked) -> Access {
+        Access { roots: self.roots.clone(), looked: Some(looked) }
+    }
+
+    /// Writes down a path that is looked for, whether it exists or not, or a folder that is listed.
+    pub fn note(&self, path: &Path) {
+        if let Some(looked) = &self.looked {
+            looked.note(path);
+        }
     }
 
     /// Allows one more folder tree.
@@ -67,6 +83,7 @@ impl Access {
     pub fn resolve(&self, base: &Path, named: &str) -> Result<PathBuf, AccessError> {
         check_name(named)?;
         let joined = if base.as_os_str().is_empty() { PathBuf::from(named) } else { base.join(named) };
+        self.note(&joined);
         match joined.canonicalize() {
             Ok(real) if self.allows(&real) => Ok(real),
             Err(source) if self.allows(&nearest_real(&joined)) => Err(io_error(&joined, source)),

@@ -18,4 +18,5 @@ mod stage_cases;
 mod syncw;
 mod tidy;
 mod validation;
+mod window;
 mod workshop;

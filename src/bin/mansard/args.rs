@@ -71,6 +71,8 @@ pub enum Command {
     },
     /// Make the dataset of a recipe
     Render(RenderArgs),
+    /// Follow a recipe and everything it names: what is saved is seen at once
+    Watch(WatchArgs),
     /// Show what a recipe will derive and draw, what not, and why; needs no GPU
     Plan {
         recipe: PathBuf,
@@ -175,6 +177,49 @@ pub struct RenderArgs {
     pub options: RecipeOptions,
     #[command(flatten)]
     pub work: WorkOptions,
+}
+
+#[derive(Clone, Debug, clap::Args)]
+pub struct WatchArgs {
+    pub recipe: PathBuf,
+    /// No window: one line of JSON per update on standard output, and the picture in a file
+    #[arg(long)]
+    pub headless: bool,
+    /// Print updates and what happens in the window as lines of JSON
+    #[arg(long, conflicts_with = "headless")]
+    pub json: bool,
+    /// Folder of the window's screenshots
+    #[arg(long, value_name = "DIR", default_value = ".")]
+    pub screenshots: PathBuf,
+    /// The picture, written whole after every update that changes it
+    #[arg(long, value_name = "FILE", requires = "headless")]
+    pub png: Option<PathBuf>,
+    /// The view to draw, by name; the recipe's first otherwise
+    #[arg(long, value_name = "VIEW")]
+    pub view: Option<String>,
+    /// The image of the view to draw
+    #[arg(long, value_enum, default_value_t = ShownName::After)]
+    pub state: ShownName,
+    /// The scene to show, by name; the recipe's first otherwise
+    #[arg(long, value_name = "SCENE")]
+    pub scene: Option<String>,
+    /// End after this many updates; exit code 1 if the last one failed
+    #[arg(long, value_name = "N", requires = "headless")]
+    pub updates: Option<u64>,
+    /// End after the first update
+    #[arg(long, requires = "headless", conflicts_with = "updates")]
+    pub once: bool,
+    #[command(flatten)]
+    pub options: RecipeOptions,
+    #[command(flatten)]
+    pub work: WorkOptions,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum ShownName {
+    Before,
+    After,
+    Mask,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

@@ -18,6 +18,7 @@ mod reports;
 mod start_shapes;
 mod town;
 mod validate;
+mod watch;
 
 use std::process::ExitCode;
 
@@ -50,6 +51,7 @@ fn main() -> ExitCode {
             build::run(&recipe, &output, reports.as_ref(), checks, &options, &work, &reporter)
         }
         Command::Render(render) => render::run(&render, &reporter),
+        Command::Watch(watch) => watch::run(&watch),
         Command::Plan { recipe, format, options, work } => plan::run(&recipe, format, &options, &work, &reporter),
         Command::Cost { recipe, output, measure, options, work } => {
             cost::run(&recipe, &output, &measure, &options, &work, &reporter)
