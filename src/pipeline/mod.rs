@@ -37,7 +37,7 @@ pub use error::PipelineError;
 pub use picking::{Traced, traced};
 pub use portrait::portrait;
 pub use progress::{Progress, Silent};
-pub use recipe::{Recipe, RecipeOptions, load_recipe};
+pub use recipe::{Recipe, RecipeOptions, load_recipe, load_recipe_over};
 pub use render::{RenderOptions, RenderSummary, render_dataset};
 pub use single::single_scene;
 pub use validation::{DefectTotal, FeatureChecks, Validation};

@@ -9,7 +9,7 @@ use super::error::PipelineError;
 use super::rules::{self, Programs};
 use crate::diagnostics::Diagnostics;
 use crate::interpreter::FileAssets;
-use crate::source::{Access, AccessError, Looked, SourceMap};
+use crate::source::{Access, AccessError, Looked, Overlay, SourceMap};
 use crate::spec;
 use crate::spec::render_spec::RenderSpec;
 
@@ -40,15 +40,25 @@ pub struct Recipe {
 
 /// Reads and checks a recipe and every rule file that it names.
 pub fn load_recipe(path: &Path, options: &RecipeOptions, sources: &mut SourceMap) -> Result<Recipe, PipelineError> {
+    load_recipe_over(path, options, &Overlay::default(), sources)
+}
+
+/// As [`load_recipe`], with texts in the place of files.
+pub fn load_recipe_over(
+    path: &Path,
+    options: &RecipeOptions,
+    overlay: &Overlay,
+    sources: &mut SourceMap,
+) -> Result<Recipe, PipelineError> {
     if let Some(looked) = &options.looked {
         looked.note(path);
     }
     let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    if !path.is_file() {
+    if !path.is_file() && overlay.get(path).is_none() {
         let source = std::io::Error::new(std::io::ErrorKind::NotFound, "no such file");
         return Err(AccessError::Io { path: path.display().to_string(), source }.into());
     }
-    let mut access = Access::new(folder)?;
+    let mut access = Access::new(folder)?.with_overlay(overlay);
     if let Some(looked) = &options.looked {
         access = access.noting(looked.clone());
     }

@@ -11,6 +11,7 @@ mod diagnostics;
 mod golden;
 mod hard_cases;
 mod highlighting;
+mod language_server;
 mod manual;
 mod pipeline;
 mod projects;

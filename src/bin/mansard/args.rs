@@ -96,6 +96,12 @@ pub enum Command {
         #[command(flatten)]
         work: WorkOptions,
     },
+    /// Serve an editor: the Language Server Protocol on standard input and output
+    Lsp {
+        /// The only way there is; some editors name it
+        #[arg(long)]
+        stdio: bool,
+    },
     /// Look into a phase
     Dump {
         #[arg(value_enum)]

@@ -10,6 +10,7 @@ mod dump;
 mod explain;
 mod fmt;
 mod footprint;
+mod lsp;
 mod plan;
 mod progress;
 mod render;
@@ -56,6 +57,7 @@ fn main() -> ExitCode {
         Command::Cost { recipe, output, measure, options, work } => {
             cost::run(&recipe, &output, &measure, &options, &work, &reporter)
         }
+        Command::Lsp { stdio: _ } => lsp::run(),
         Command::Dump { phase, file } => dump::run(phase, &file, args.quiet),
         Command::Town { seed, buildings, output, name } => town::run(seed, buildings, &output, &name, &reporter),
     };
