@@ -48,22 +48,22 @@ impl Overlay {
 pub struct Access {
     /// Canonical folders.
     roots: Vec<PathBuf>,
-    overlay: Overlay,
     /// Where every path that is looked for is written down.
     looked: Option<Looked>,
+    overlay: Overlay,
 }
 
 impl Access {
     /// Allows `root` and everything below it.
     pub fn new(root: &Path) -> Result<Self, AccessError> {
-        let mut access = Access { roots: Vec::new(), overlay: Overlay::default(), looked: None };
+        let mut access = Access { roots: Vec::new(), looked: None, overlay: Overlay::default() };
         access.allow(root)?;
         Ok(access)
     }
 
     /// The same folders; every path that is looked for from now on is written down.
     pub fn noting(&self, looked: Looked) -> Access {
-        Access { looked: Some(looked), ..self.clone() }
+        Access { roots: self.roots.clone(), looked: Some(looked) }
     }
 
     /// Writes down a path that is looked for, whether it exists or not, or a folder that is listed.

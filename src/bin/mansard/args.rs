@@ -26,7 +26,7 @@ pub enum Command {
         /// Report what rule files written for CityEngine meet here; folders are searched for .cga files
         #[arg(long)]
         cityengine: bool,
-        /// `json` prints one object per line
+        /// `json` prints one object per line, `short` one line per mistake (per folder with `--cityengine`)
         #[arg(long, value_enum, default_value_t = Format::Text)]
         format: Format,
         #[command(flatten)]
@@ -191,6 +191,12 @@ pub struct WatchArgs {
     /// No window: one line of JSON per update on standard output, and the picture in a file
     #[arg(long)]
     pub headless: bool,
+    /// Print updates and what happens in the window as lines of JSON
+    #[arg(long, conflicts_with = "headless")]
+    pub json: bool,
+    /// Folder of the window's screenshots
+    #[arg(long, value_name = "DIR", default_value = ".")]
+    pub screenshots: PathBuf,
     /// The picture, written whole after every update that changes it
     #[arg(long, value_name = "FILE", requires = "headless")]
     pub png: Option<PathBuf>,
@@ -269,6 +275,8 @@ pub struct DeriveArgs {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Format {
     Text,
+    /// `FILE:LINE:COLUMN: error[CODE]: MESSAGE`, as editors read it
+    Short,
     Json,
 }
 
