@@ -13,6 +13,7 @@ use super::vegetation;
 use crate::dataset::manifest::{ChangeRecord, ChangedFeature, InputFile, SceneRecord};
 use crate::dataset::reports::SceneReports;
 use crate::diagnostics::Diagnostics;
+use crate::geodata::feature::{Feature, FeatureClass, FeatureId};
 use crate::geodata::ledger::{Ledger, Outcome};
 use crate::geodata::projection::LocalFrame;
 use crate::geodata::terrain::Terrain;
@@ -20,7 +21,7 @@ use crate::geometry::Polygon;
 use crate::geometry::roof::CURVE_BANDS;
 use crate::interpreter::Limits;
 use crate::output::OutputError;
-use crate::plan::change::draw_changes;
+use crate::plan::change::{Changed, draw_changes};
 use crate::scene::Scene;
 use crate::scene::assemble::{FeatureParts, TERRAIN_INSTANCE, assemble, ground_layers};
 use crate::scene::ground::build_ground;
@@ -36,6 +37,8 @@ pub struct BuiltScene {
     pub terrain: Terrain,
     pub record: SceneRecord,
     pub reports: SceneReports,
+    /// Of every feature, in the order of their ids.
+    pub assignments: Vec<Assignment>,
     /// Only where mesh checks were asked for.
     pub validation: Option<Validation>,
     /// Textures and geometry files that rules named.
@@ -43,6 +46,16 @@ pub struct BuiltScene {
     /// Mistakes met while deriving.
     pub diagnostics: Diagnostics,
     pub prints: Vec<String>,
+}
+
+/// What a recipe makes of a feature.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Assignment {
+    pub feature: FeatureId,
+    pub class: FeatureClass,
+    /// Index into the scene's rules.
+    pub rule: Option<usize>,
+    pub change: Option<Changed>,
 }
 
 /// Whether meshes are checked for defects.
@@ -138,6 +151,14 @@ pub fn build_scene_within(
         touched[i] = change;
     }
 
+    let assignment = |(i, f): (usize, &Feature)| Assignment {
+        feature: f.id,
+        class: f.class,
+        rule: assigned[i],
+        change: touched[i],
+    };
+    let assignments = place.features.iter().enumerate().map(assignment).collect();
+
     // Derive every feature in every state.
     let assets = recipe.assets();
     let limits = Limits { detail: fineness.detail_m, curve_bands: fineness.curve_bands, ..Limits::default() };
@@ -189,7 +210,7 @@ pub fn build_scene_within(
     );
     progress.end(&format!("{} triangles", record.triangles));
     let (diagnostics, prints) = (derived.diagnostics, derived.prints);
-    Ok(BuiltScene { scene, frame, terrain, record, reports, validation, files, diagnostics, prints })
+    Ok(BuiltScene { scene, frame, terrain, record, reports, assignments, validation, files, diagnostics, prints })
 }
 
 #[expect(clippy::too_many_arguments, reason = "the fields of one record")]

@@ -28,13 +28,14 @@ mod vegetation;
 mod views;
 
 pub use backend::BackendChoice;
-pub use build::{BuiltScene, Checks, build_scene};
+pub use build::{Assignment, BuiltScene, Checks, build_scene};
 pub use cost::{CostOptions, CostSummary, measure_cost};
 pub use error::PipelineError;
 pub use portrait::portrait;
 pub use progress::{Progress, Silent};
 pub use recipe::{Recipe, RecipeOptions, load_recipe};
-pub use render::{RenderOptions, RenderSummary, render_dataset};
+pub use record::{acquisition_record, below_root, file_sha256, geometry_hash};
+pub use render::{RenderOptions, RenderSummary, build_scenes, render_built, render_dataset, write_geometry};
 pub use single::single_scene;
 pub use validation::{DefectTotal, FeatureChecks, Validation};
-pub use views::{PlannedRecipe, plan_views};
+pub use views::{PlannedRecipe, SceneViews, plan_views, scene_views};

@@ -5,9 +5,13 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use super::error::PipelineError;
+use super::build::BuiltScene;
+use super::record;
 use super::rules::{self, Programs};
+use crate::dataset::manifest::InputFile;
 use crate::diagnostics::Diagnostics;
 use crate::interpreter::FileAssets;
+use crate::output::OutputError;
 use crate::source::{Access, AccessError, SourceMap};
 use crate::spec;
 use crate::spec::render_spec::RenderSpec;
@@ -73,6 +77,11 @@ impl Recipe {
     /// Files that rules may read.
     pub fn assets(&self) -> FileAssets {
         FileAssets::new(self.readable.clone())
+    }
+
+    /// Every input by content, those that only deriving showed as far as scenes are built; sorted.
+    pub fn inputs(&self, sources: &SourceMap, built: &[BuiltScene]) -> Result<Vec<InputFile>, OutputError> {
+        record::inputs(self, sources, built).map_err(|source| OutputError::new(&self.path, source))
     }
 
     /// The command line's arguments as the manifest tells them: paths by their names alone.

@@ -14,6 +14,7 @@ use image::imageops::{FilterType, resize};
 use image::{ImageFormat, ImageReader, Limits, Luma, Rgba, RgbaImage};
 
 use super::error::PipelineError;
+use super::record::below_root;
 use crate::dataset::manifest::InputFile;
 use crate::dataset::writer::sha256;
 use crate::interpreter::FileAssets;
@@ -113,7 +114,14 @@ impl Loader<'_> {
         let Ok((path, bytes)) = self.assets.texture(named) else { return Ok(None) };
         let name = below(&path, named, self.assets.access());
         let (size, hash) = (bytes.len() as u64, sha256(&bytes));
-        self.loaded.files.push(InputFile { role: "texture", name: name.clone(), bytes: size, sha256: hash });
+        let place = below_root(&path, self.assets.access());
+        self.loaded.files.push(InputFile {
+            role: "texture",
+            name: name.clone(),
+            path: place,
+            bytes: size,
+            sha256: hash,
+        });
         let image = decode(&path, bytes).map_err(|source| PipelineError::Texture { path, source })?;
         let has_alpha = image.color().has_alpha();
         Ok(Some(Texture { name: name.into(), pixels: Arc::new(image.to_rgba8()), has_alpha }))
