@@ -9,7 +9,7 @@ use super::error::ComparisonError;
 use super::features::{FeaturesDifference, compare_features};
 use super::inputs::{InputDifference, compare_inputs};
 use super::meshes::{MeshDifference, compare_meshes};
-use super::pixels::{Kind, PixelDifference, compare_pixels, decode, kind};
+use super::pixels::{Decoded, Kind, PixelDifference, compare_pixels, decode, kind};
 use super::properties::{PropertyDifference, compare_properties};
 use super::rules::{FileDifference, compare_rules};
 use super::snapshot::{DatasetSnapshot, ImageSnapshot, SceneSnapshot, Snapshot, ViewSnapshot};
@@ -190,14 +190,8 @@ fn image_difference(
         out.incomparable = Some(format!("only in {}", if image_a.is_some() { "A" } else { "B" }));
         return Ok(Some(out));
     };
-    let path = |side: &DatasetSnapshot, image: &ImageSnapshot| {
-        side.folder.as_ref().expect("images lie in a folder").join(&image.path)
-    };
-    let mut decoded_a = decode(&path(a.1, image_a))?;
-    let decoded_b = decode(&path(b.1, image_b))?;
+    let (decoded_a, decoded_b, names) = load_pair(view, (a, image_a), (b, image_b))?;
     let output = image_b.output.as_deref();
-    let names = LabelNames::new(output, (a, view), (b, view));
-    names.renumber(&mut decoded_a.pixels);
     match compare_pixels(&decoded_a, &decoded_b) {
         Err(why) => out.incomparable = Some(why),
         Ok(found) if found.differing == 0 => return Ok(None),
@@ -214,8 +208,23 @@ fn image_difference(
     Ok(Some(out))
 }
 
+/// Reads an image of both sides; instance numbers are those of B.
+pub fn load_pair<'a>(
+    view: &str,
+    (a, image_a): ((&'a Snapshot, &'a DatasetSnapshot), &'a ImageSnapshot),
+    (b, image_b): ((&'a Snapshot, &'a DatasetSnapshot), &'a ImageSnapshot),
+) -> Result<(Decoded, Decoded, LabelNames<'a>), ComparisonError> {
+    let read = |side: &DatasetSnapshot, image: &ImageSnapshot| {
+        decode(&side.folder.as_ref().expect("images lie in a folder").join(&image.path))
+    };
+    let (mut of_a, of_b) = (read(a.1, image_a)?, read(b.1, image_b)?);
+    let names = LabelNames::new(image_b.output.as_deref(), (a, view), (b, view));
+    names.renumber(&mut of_a.pixels);
+    Ok((of_a, of_b, names))
+}
+
 /// What the numbers of a label image mean on both sides.
-struct LabelNames<'a> {
+pub struct LabelNames<'a> {
     output: Option<&'a str>,
     classes: &'a BTreeMap<u8, String>,
     /// Numbers of instance images of both sides.

@@ -274,8 +274,8 @@ mod tests {
         let other = "\nattr height = 10\nconst low = \"Span { b } \\\" Span {\"\n@Hidden\nattr more = 1\nLot --> Wall(height) NIL\n";
         let expected = [
             ("attr", "height".to_owned(), Fate::Changed, Some(1), Some(2)),
-            ("rule", "Wall/1".to_owned(), Fate::Removed, Some(3), None),
             ("const", "low".to_owned(), Fate::Changed, Some(2), Some(3)),
+            ("rule", "Wall/1".to_owned(), Fate::Removed, Some(3), None),
             ("attr", "more".to_owned(), Fate::Added, None, Some(5)),
             ("rule", "Lot".to_owned(), Fate::Changed, Some(4), Some(6)),
         ];

@@ -35,7 +35,6 @@ pub struct Stored {
 
 #[derive(Clone, Debug, Deserialize)]
 pub struct Generator {
-    pub name: String,
     pub version: String,
 }
 
@@ -74,7 +73,6 @@ pub struct StoredChange {
 #[derive(Clone, Debug, Deserialize)]
 pub struct StoredChanged {
     pub feature: String,
-    pub instance: u32,
     pub level: u8,
 }
 
@@ -100,7 +98,6 @@ pub struct StoredBudget {
 pub struct StoredView {
     pub name: String,
     pub scene: String,
-    pub split: String,
     pub draws: BTreeMap<String, Value>,
     pub acquisitions: Vec<Value>,
     pub images: BTreeMap<String, WrittenFile>,

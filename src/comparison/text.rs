@@ -144,7 +144,9 @@ fn rules(out: &mut String, of: &Difference) {
             let note = if d.fate == Fate::Annotated { ", annotations" } else { "" };
             format!("{} {} {}, {line}{note}", mark(d.fate), d.what, d.name)
         });
-        below.lines().for_each(|line| drop(writeln!(out, "  {line}")));
+        for line in below.lines() {
+            let _ = writeln!(out, "  {line}");
+        }
     }
     if told.len() > MOST {
         let _ = writeln!(out, "  … and {} more files", told.len() - MOST);

@@ -6,6 +6,7 @@ mod check;
 mod compatibility;
 mod cost;
 mod derive;
+mod diff;
 mod dump;
 mod explain;
 mod fmt;
@@ -18,6 +19,7 @@ mod reports;
 mod start_shapes;
 mod town;
 mod validate;
+mod verify;
 
 use std::process::ExitCode;
 
@@ -54,6 +56,8 @@ fn main() -> ExitCode {
         Command::Cost { recipe, output, measure, options, work } => {
             cost::run(&recipe, &output, &measure, &options, &work, &reporter)
         }
+        Command::Diff(diff) => diff::run(&diff, &reporter),
+        Command::Verify(verify) => verify::run(&verify, &reporter),
         Command::Dump { phase, file } => dump::run(phase, &file, args.quiet),
         Command::Town { seed, buildings, output, name } => town::run(seed, buildings, &output, &name, &reporter),
     };
