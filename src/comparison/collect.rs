@@ -190,7 +190,8 @@ fn of_folder(folder: &Path) -> Result<Snapshot, ComparisonError> {
         let objects = glb::read(&bytes).map_err(|why| ComparisonError::Scene { path, why })?;
         scenes.insert(scene.name.clone(), stored_scene(scene, objects));
     }
-    let input = |i: super::stored::StoredInput| InputSnapshot { role: i.role, name: i.name, path: i.path, sha256: i.sha256 };
+    let input =
+        |i: super::stored::StoredInput| InputSnapshot { role: i.role, name: i.name, path: i.path, sha256: i.sha256 };
     Ok(Snapshot {
         label: folder.display().to_string(),
         datasets: datasets(&folders)?,
@@ -217,7 +218,8 @@ fn as_stored_scene(recipe: &Recipe, built: BuiltScene) -> Result<SceneSnapshot, 
 fn stored_scene(scene: &StoredScene, stored: StoredObjects) -> SceneSnapshot {
     let mut features: BTreeMap<String, FeatureSnapshot> = BTreeMap::new();
     for object in stored.objects.iter().filter(|object| object.feature != super::meshes::GROUND) {
-        let ok = FeatureSnapshot { class: object.class.clone(), outcome: "ok".to_owned(), ..FeatureSnapshot::default() };
+        let ok =
+            FeatureSnapshot { class: object.class.clone(), outcome: "ok".to_owned(), ..FeatureSnapshot::default() };
         features.entry(object.feature.clone()).or_insert(ok);
     }
     for entry in &scene.ledger.entries {

@@ -97,7 +97,11 @@ mod tests {
     #[test]
     fn features_come_go_and_change() {
         let a = scene(&[("way/1", Some("a"), "", "ok"), ("way/2", Some("a"), "", "ok"), ("way/3", None, "", "ok")]);
-        let b = scene(&[("way/2", Some("b"), "burnt", "skipped: x"), ("way/3", Some("b"), "", "ok"), ("way/4", None, "", "ok")]);
+        let b = scene(&[
+            ("way/2", Some("b"), "burnt", "skipped: x"),
+            ("way/3", Some("b"), "", "ok"),
+            ("way/4", None, "", "ok"),
+        ]);
         let found = compare_features(&a, &b);
         let told: Vec<_> = found.features.iter().map(|f| (f.feature.as_str(), f.fate, f.differs.len())).collect();
         assert_eq!(told, [("way/1", Fate::Removed, 0), ("way/4", Fate::Added, 0), ("way/2", Fate::Changed, 3)]);

@@ -77,9 +77,17 @@ mod tests {
         let text = "L 1.";
         let mut rows = vec![vec![' '; text.len() * ADVANCE as usize]; HEIGHT as usize];
         ink(text).for_each(|(x, y)| rows[y as usize][x as usize] = '#');
-        let drawn: Vec<String> = rows.into_iter().map(|row| row.into_iter().collect::<String>().trim_end().to_owned()).collect();
-        let expected =
-            ["#             #", "#            ##", "#             #", "#             #", "#             #", "#             #    ##", "#####        ###   ##"];
+        let drawn: Vec<String> =
+            rows.into_iter().map(|row| row.into_iter().collect::<String>().trim_end().to_owned()).collect();
+        let expected = [
+            "#             #",
+            "#            ##",
+            "#             #",
+            "#             #",
+            "#             #",
+            "#             #    ##",
+            "#####        ###   ##",
+        ];
         assert_eq!(drawn, expected);
         assert_eq!(ink("€").count(), ink("ß").count());
         // Every letter is another one.

@@ -88,20 +88,26 @@ mod tests {
 
     #[test]
     fn inputs_are_paired_by_place_and_then_by_content() {
-        let a = side("a.render", &[
-            ("recipe", "a.render", "1"),
-            ("map", "x/town.osm", "2"),
-            ("map", "y/town.osm", "3"),
-            ("elevation", "old.tif", "4"),
-            ("rules", "gone.cga", "5"),
-        ]);
-        let b = side("b.render", &[
-            ("recipe", "b.render", "1"),
-            ("map", "x/town.osm", "2"),
-            ("map", "y/town.osm", "33"),
-            ("elevation", "new.tif", "4"),
-            ("rules", "come.cga", "6"),
-        ]);
+        let a = side(
+            "a.render",
+            &[
+                ("recipe", "a.render", "1"),
+                ("map", "x/town.osm", "2"),
+                ("map", "y/town.osm", "3"),
+                ("elevation", "old.tif", "4"),
+                ("rules", "gone.cga", "5"),
+            ],
+        );
+        let b = side(
+            "b.render",
+            &[
+                ("recipe", "b.render", "1"),
+                ("map", "x/town.osm", "2"),
+                ("map", "y/town.osm", "33"),
+                ("elevation", "new.tif", "4"),
+                ("rules", "come.cga", "6"),
+            ],
+        );
         let found = compare_inputs(&a, &b);
         let told: Vec<_> = found.iter().map(|d| (d.name.as_str(), d.was.as_deref(), d.fate)).collect();
         let expected = [

@@ -40,7 +40,9 @@ pub enum Surface {
     /// The same triangles in another order.
     Reordered,
     /// The same triangles in space; materials, normals or texture coordinates differ.
-    Look { triangles: usize },
+    Look {
+        triangles: usize,
+    },
     Shape {
         triangles_a: usize,
         triangles_b: usize,

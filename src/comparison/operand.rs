@@ -21,7 +21,8 @@ impl Operand {
     pub fn new(word: &str, recipe: Option<&Path>) -> Result<Operand, ComparisonError> {
         let path = Path::new(word);
         if let Some(recipe) = recipe {
-            let path = if recipe.is_absolute() { recipe.display().to_string() } else { format!("./{}", recipe.display()) };
+            let path =
+                if recipe.is_absolute() { recipe.display().to_string() } else { format!("./{}", recipe.display()) };
             return Ok(Operand::Revision { revision: word.to_owned(), path });
         }
         if path.is_dir() {

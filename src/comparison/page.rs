@@ -39,8 +39,8 @@ pub fn write_pages(of: &Difference, a: &Snapshot, b: &Snapshot, folder: &Path) -
     let several = of.views.len() > 1;
     for (dataset, view, images) in differing_views(of) {
         let Some(picture) = picture(&images, a, b)? else { continue };
-        let name = if several { format!("{dataset}-{view}.png") } else { format!("{view}.png") };
-        write(name, &picture.png())?;
+        let name = if several { format!("{dataset}-{view}") } else { view.to_owned() };
+        write(format!("{}.png", plain(&name)), &picture.png())?;
         if shown.len() < MOST_PICTURES {
             let told = images.iter().map(|image| format!("{}: {}", image.image, pixels_text(image)));
             shown.push((view.to_owned(), told.collect::<Vec<_>>().join("; "), picture));
@@ -48,6 +48,11 @@ pub fn write_pages(of: &Difference, a: &Snapshot, b: &Snapshot, folder: &Path) -
     }
     write("diff.html".to_owned(), html(of, &shown).as_bytes())?;
     Ok(names)
+}
+
+/// A name that is a file's wherever it came from: recipes have no others, but manifests may come from anywhere.
+fn plain(name: &str) -> String {
+    name.chars().map(|c| if c.is_ascii_alphanumeric() || c == '-' { c } else { '_' }).collect()
 }
 
 /// Views in the order of their names, with their images that differ.

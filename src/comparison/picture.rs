@@ -113,8 +113,10 @@ impl Zoom {
                     first..(first + self.by).min(end)
                 };
                 let (columns, rows) = (range(x, self.width), range(y, self.height));
-                let mut block =
-                    rows.flat_map(|j| columns.clone().map(move |i| (j * self.width + i) as usize)).collect::<Vec<_>>().into_iter();
+                let mut block = rows
+                    .flat_map(|j| columns.clone().map(move |i| (j * self.width + i) as usize))
+                    .collect::<Vec<_>>()
+                    .into_iter();
                 pixels.push(color(&mut block));
             }
         }
@@ -146,7 +148,9 @@ pub fn strip(a: &Decoded, b: &Decoded, kind: Kind, name: &str, result: &str) -> 
     // Three cells, a line of captions above, a scale and a line of numbers below.
     let mut out = Canvas::new(3 * step + GAP, LINE + left.height + 2 * LINE + GAP);
     for (number, (cell, caption)) in
-        [(&left, format!("A {name}")), (&right, format!("B {name}")), (&heat, "difference".to_owned())].into_iter().enumerate()
+        [(&left, format!("A {name}")), (&right, format!("B {name}")), (&heat, "difference".to_owned())]
+            .into_iter()
+            .enumerate()
     {
         let x = GAP + number as u32 * step;
         out.text(x, 6, &fitting(&caption, cell.width));
@@ -227,8 +231,16 @@ fn color(image: &Decoded, kind: Kind, scale: &DepthScale, i: usize) -> Rgb {
         Pixels::Rgb16(data) => [data[3 * i], data[3 * i + 1], data[3 * i + 2]].map(encoded),
         Pixels::Gray16(data) => [encoded(data[i]); 3],
         Pixels::Gray8(data) if kind == Kind::Colour || data[i] == 255 => [data[i]; 3],
-        Pixels::Gray8(data) => LABELS.get(usize::from(data[i])).copied().unwrap_or_else(|| scattered(u32::from(data[i]))),
-        Pixels::Id32(data) => if data[i] == 0 { LABELS[0] } else { scattered(data[i]) },
+        Pixels::Gray8(data) => {
+            LABELS.get(usize::from(data[i])).copied().unwrap_or_else(|| scattered(u32::from(data[i])))
+        }
+        Pixels::Id32(data) => {
+            if data[i] == 0 {
+                LABELS[0]
+            } else {
+                scattered(data[i])
+            }
+        }
         Pixels::Float32(data) if data[i].is_finite() => {
             let share = (data[i] - scale.low) / (scale.high - scale.low).max(1e-6);
             [(235.0 - 200.0 * share) as u8; 3]
@@ -296,7 +308,8 @@ mod tests {
         let left = (GAP + 2 * (cell + GAP)) as usize;
         let top = LINE as usize;
         let rows = drawn.bytes.chunks_exact(3 * drawn.width as usize).skip(top).take(250);
-        let found: usize = rows.map(|row| row[3 * left..3 * (left + cell as usize)].chunks_exact(3).filter(|p| hot(p)).count()).sum();
+        let found: usize =
+            rows.map(|row| row[3 * left..3 * (left + cell as usize)].chunks_exact(3).filter(|p| hot(p)).count()).sum();
         assert_eq!(found, 1);
     }
 

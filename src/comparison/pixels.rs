@@ -103,7 +103,13 @@ pub fn compare_pixels(a: &Decoded, b: &Decoded) -> Result<PixelDifference, Strin
     }
 }
 
-fn colours<T: Copy + PartialEq + Into<f64>>(a: &[T], b: &[T], channels: usize, scale: f64, mut out: PixelDifference) -> PixelDifference {
+fn colours<T: Copy + PartialEq + Into<f64>>(
+    a: &[T],
+    b: &[T],
+    channels: usize,
+    scale: f64,
+    mut out: PixelDifference,
+) -> PixelDifference {
     let mut greatest = 0.0f64;
     for (a, b) in a.chunks_exact(channels).zip(b.chunks_exact(channels)) {
         if a != b {

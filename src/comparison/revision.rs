@@ -16,9 +16,13 @@ pub struct Unpacked {
 
 /// Unpacks what a revision has; see [`super::Operand::Revision`] for `path`.
 pub fn unpack(revision: &str, path: &str) -> Result<Unpacked, ComparisonError> {
-    let top = PathBuf::from(git(None, &["rev-parse", "--show-toplevel"])?);
-    let tree = git(None, &["rev-parse", "--verify", "--quiet", "--end-of-options", &format!("{revision}^{{tree}}")])
-        .map_err(|_| ComparisonError::Operand(format!("`{revision}` is no revision of the repository {}", top.display())))?;
+    let here = Path::new(path).ancestors().skip(1).find(|folder| folder.is_absolute() && folder.is_dir());
+    let top = PathBuf::from(git(here, &["rev-parse", "--show-toplevel"])?);
+    let tree =
+        git(Some(&top), &["rev-parse", "--verify", "--quiet", "--end-of-options", &format!("{revision}^{{tree}}")])
+            .map_err(|_| {
+                ComparisonError::Operand(format!("`{revision}` is no revision of the repository {}", top.display()))
+            })?;
     let recipe = from_top(path, &top)?;
     let named = recipe.iter().map(|part| part.to_string_lossy()).collect::<Vec<_>>().join("/");
     git(Some(&top), &["cat-file", "-e", &format!("{tree}:{named}")])

@@ -65,7 +65,8 @@ pub fn compare_rules(a: &[RuleText], b: &[RuleText]) -> Vec<FileDifference> {
     let (same_name, others): (Vec<_>, Vec<_>) = a.iter().partition(|x| b.iter().any(|y| y.name == x.name));
     let mut right: Vec<&RuleText> = b.iter().collect();
     let mut pairs: Vec<(Option<&RuleText>, Option<&RuleText>)> = Vec::new();
-    let mut pair = |x, found: Option<usize>, right: &mut Vec<_>| pairs.push((Some(x), found.map(|at| right.remove(at))));
+    let mut pair =
+        |x, found: Option<usize>, right: &mut Vec<_>| pairs.push((Some(x), found.map(|at| right.remove(at))));
     for x in same_name {
         let found = right.iter().position(|y| y.name == x.name);
         pair(x, found, &mut right);
@@ -152,7 +153,8 @@ fn of_tree(file: &SourceFile, ast: &Ast) -> BTreeMap<Key, Vec<Declared>> {
     let mut out: BTreeMap<Key, Vec<Declared>> = BTreeMap::new();
     let line = |span: Span| file.place(span.start).line;
     if let Some(version) = &ast.version {
-        let declared = Declared { line: line(version.span), annotations: String::new(), meaning: version.text.to_string() };
+        let declared =
+            Declared { line: line(version.span), annotations: String::new(), meaning: version.text.to_string() };
         out.insert(("version", String::new()), vec![declared]);
     }
     let mut style = String::new();
@@ -257,7 +259,8 @@ mod tests {
         all.map(|d| (d.what, d.name, d.fate, d.line_a, d.line_b)).collect()
     }
 
-    const RULES: &str = "attr height = 9\nconst low = \"Span { a } \\\" Span {\"\nWall(h) --> extrude(h) Side.\nLot --> Wall(height)\n";
+    const RULES: &str =
+        "attr height = 9\nconst low = \"Span { a } \\\" Span {\"\nWall(h) --> extrude(h) Side.\nLot --> Wall(height)\n";
 
     #[test]
     fn comments_layout_and_order_make_no_difference() {

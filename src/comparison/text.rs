@@ -5,7 +5,7 @@ use std::fmt::Write;
 use super::difference::{Difference, ImageDifference, SceneDifference};
 use super::meshes::{FeatureMeshes, Surface};
 use super::pixels::Kind;
-use super::rules::{FileDifference, Fate};
+use super::rules::{Fate, FileDifference};
 use super::views::{DrawDifference, ViewsDifference};
 
 /// Lines of a list before it is cut.
@@ -49,7 +49,12 @@ fn counted(n: usize, what: &str) -> String {
 /// `2 changed, 1 added`.
 fn fates(all: impl Iterator<Item = Fate> + Clone) -> String {
     let count = |fate: Fate| all.clone().filter(|f| *f == fate).count();
-    let words = [(Fate::Changed, "changed"), (Fate::Added, "added"), (Fate::Removed, "removed"), (Fate::Annotated, "annotated anew")];
+    let words = [
+        (Fate::Changed, "changed"),
+        (Fate::Added, "added"),
+        (Fate::Removed, "removed"),
+        (Fate::Annotated, "annotated anew"),
+    ];
     let told: Vec<String> = words
         .iter()
         .map(|(fate, word)| (count(*fate), word))
@@ -73,7 +78,8 @@ fn inputs(out: &mut String, of: &Difference) {
     let renamed = if renamed > 0 { format!("{renamed} renamed") } else { String::new() };
     let parts: Vec<&str> = [changed.as_str(), &renamed].into_iter().filter(|part| !part.is_empty()).collect();
     section(out, "inputs", &if parts.is_empty() { "same".to_owned() } else { parts.join(", ") });
-    let short = |sha256: &Option<String>| sha256.as_ref().map_or(String::new(), |sha256| sha256.chars().take(12).collect());
+    let short =
+        |sha256: &Option<String>| sha256.as_ref().map_or(String::new(), |sha256| sha256.chars().take(12).collect());
     list(out, &of.inputs, |input| {
         let was = input.was.as_ref().map_or(String::new(), |was| format!("{was} → "));
         let hashes = match input.fate {
@@ -84,7 +90,7 @@ fn inputs(out: &mut String, of: &Difference) {
         format!("{mark} {:<10}{was}{}{hashes}", input.role, input.name)
     });
     if !of.arguments.is_empty() {
-        section(out, "arguments", &counted(of.arguments.len(), "argument") );
+        section(out, "arguments", &counted(of.arguments.len(), "argument"));
         let value = |value: &Option<String>| value.clone().unwrap_or_else(|| "not given".to_owned());
         list(out, &of.arguments, |(name, a, b)| format!("{name}  {} → {}", value(a), value(b)));
     }
@@ -174,9 +180,10 @@ fn features(out: &mut String, scene: &SceneDifference, several: bool) {
     let share = |share: &Option<f64>| share.map_or("none".to_owned(), |s| format!("{:.2} %", 100.0 * s));
     list(out, &found.shares, |(change, a, b)| format!("~ change {change}: share drawn {} → {}", share(a), share(b)));
     list(out, &found.features, |feature| {
-        let differs: Vec<String> =
-            feature.differs.iter().map(|(what, a, b)| format!("{what} {a} → {b}")).collect();
-        format!("{} {} ({})  {}", mark(feature.fate), feature.feature, feature.class, differs.join("; ")).trim_end().to_owned()
+        let differs: Vec<String> = feature.differs.iter().map(|(what, a, b)| format!("{what} {a} → {b}")).collect();
+        format!("{} {} ({})  {}", mark(feature.fate), feature.feature, feature.class, differs.join("; "))
+            .trim_end()
+            .to_owned()
     });
 }
 
@@ -194,10 +201,17 @@ fn meshes(out: &mut String, scene: &SceneDifference, several: bool) {
     let count = |state: fn(&FeatureMeshes) -> Surface| found.features.iter().filter(|f| !state(f).is_same()).count();
     let (before, after) = (count(|f| f.before), count(|f| f.after));
     let ground = if found.ground.is_some() { ", and the ground" } else { "" };
-    section(out, &name, &format!(
-        "{} of {} features differ ({before} before, {after} after){ground}; {} → {} triangles{order}",
-        found.features.len(), found.compared, found.triangles_a, found.triangles_b
-    ));
+    section(
+        out,
+        &name,
+        &format!(
+            "{} of {} features differ ({before} before, {after} after){ground}; {} → {} triangles{order}",
+            found.features.len(),
+            found.compared,
+            found.triangles_a,
+            found.triangles_b
+        ),
+    );
     list(out, &found.features, |f| format!("~ {} ({})  {}", f.feature, f.class, both_states(f)));
     if let Some(ground) = &found.ground {
         let _ = writeln!(out, "  ~ ground  {}", both_states(ground));

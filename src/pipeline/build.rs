@@ -151,12 +151,8 @@ pub fn build_scene_within(
         touched[i] = change;
     }
 
-    let assignment = |(i, f): (usize, &Feature)| Assignment {
-        feature: f.id,
-        class: f.class,
-        rule: assigned[i],
-        change: touched[i],
-    };
+    let assignment =
+        |(i, f): (usize, &Feature)| Assignment { feature: f.id, class: f.class, rule: assigned[i], change: touched[i] };
     let assignments = place.features.iter().enumerate().map(assignment).collect();
 
     // Derive every feature in every state.

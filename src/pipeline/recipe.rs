@@ -4,8 +4,8 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use super::error::PipelineError;
 use super::build::BuiltScene;
+use super::error::PipelineError;
 use super::record;
 use super::rules::{self, Programs};
 use crate::dataset::manifest::InputFile;

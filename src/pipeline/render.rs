@@ -83,11 +83,7 @@ pub fn build_scenes(
 }
 
 /// Writes the glTF of every scene, and the reports.
-pub fn write_geometry(
-    recipe: &Recipe,
-    built: &[BuiltScene],
-    folder: &Path,
-) -> Result<Vec<WrittenFile>, PipelineError> {
+pub fn write_geometry(recipe: &Recipe, built: &[BuiltScene], folder: &Path) -> Result<Vec<WrittenFile>, PipelineError> {
     let mut files = Vec::new();
     for scene in built {
         let glb = to_glb(&scene.scene, recipe.attribution())?;

@@ -45,9 +45,10 @@ fn side(
 fn tell(difference: &Difference, format: Format) -> Result<(), Failure> {
     match format {
         Format::Text => report::out(&difference_text(difference)),
-        Format::Json => {
-            report::out(&format!("{}\n", serde_json::to_string_pretty(difference).expect("names and numbers serialise")))
-        }
+        Format::Json => report::out(&format!(
+            "{}\n",
+            serde_json::to_string_pretty(difference).expect("names and numbers serialise")
+        )),
     }
 }
 

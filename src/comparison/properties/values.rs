@@ -127,7 +127,9 @@ fn test(of: &TagTest) -> String {
 fn grouped(of: &TagTest) -> String {
     match of {
         TagTest::Any(_) | TagTest::All(_) => format!("({})", test(of)),
-        TagTest::Not(_) | TagTest::Has(_) | TagTest::Kind(_) | TagTest::Is { .. } | TagTest::Compares { .. } => test(of),
+        TagTest::Not(_) | TagTest::Has(_) | TagTest::Kind(_) | TagTest::Is { .. } | TagTest::Compares { .. } => {
+            test(of)
+        }
     }
 }
 
@@ -151,7 +153,8 @@ pub fn set(of: &SetSpec, spec: &RenderSpec) -> String {
 }
 
 pub fn state(state: &StateSpec, spec: &RenderSpec) -> String {
-    let names = |changes: &[usize]| changes.iter().map(|&c| spec.changes[c].name.as_str()).collect::<Vec<_>>().join(", ");
+    let names =
+        |changes: &[usize]| changes.iter().map(|&c| spec.changes[c].name.as_str()).collect::<Vec<_>>().join(", ");
     match state {
         StateSpec::Before => "before".to_owned(),
         StateSpec::After(changes) => names(changes),
@@ -186,10 +189,13 @@ pub fn sun(at: &str, sun: &SunSpec, out: &mut Properties) {
     }
     add("disc", angle(disc));
     add("intensity", number(intensity));
-    add("colour", match colour {
-        SunColour::Fixed([r, g, b]) => format!("{r}, {g}, {b}"),
-        SunColour::ClearSky { turbidity } => format!("clear_sky({})", number(turbidity)),
-    });
+    add(
+        "colour",
+        match colour {
+            SunColour::Fixed([r, g, b]) => format!("{r}, {g}, {b}"),
+            SunColour::ClearSky { turbidity } => format!("clear_sky({})", number(turbidity)),
+        },
+    );
 }
 
 pub fn effects(at: &str, effects: &EffectsSpec, out: &mut Properties) {
@@ -207,8 +213,7 @@ pub fn effects(at: &str, effects: &EffectsSpec, out: &mut Properties) {
 /// What a pass says of effects, only where it says something.
 pub fn overrides(at: &str, over: &EffectOverrides, out: &mut Properties) {
     let EffectOverrides { shadows, ambient, atmosphere, clouds, ground, vegetation, sensor } = over;
-    let mut add =
-        |what: &str, value: Option<String>| out.extend(value.map(|value| (format!("{at}.{what}"), value)));
+    let mut add = |what: &str, value: Option<String>| out.extend(value.map(|value| (format!("{at}.{what}"), value)));
     add("shadows", shadows.as_ref().map(word));
     add("ambient", ambient.as_ref().map(light));
     add("atmosphere", atmosphere.as_ref().map(|own| or_off(own.as_ref(), haze)));

@@ -6,9 +6,7 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 
-use super::{
-    Colours, DatasetVerification, FileFate, FileVerification, ImageVerification, Made, SceneVerification,
-};
+use super::{Colours, DatasetVerification, FileFate, FileVerification, ImageVerification, Made, SceneVerification};
 use crate::comparison::error::ComparisonError;
 use crate::comparison::pixels::{Kind, compare_pixels, decode, kind};
 use crate::comparison::stored::{MANIFEST, Stored};
@@ -133,7 +131,8 @@ impl Context<'_> {
         let views = self.stored.views.iter();
         let named = views.flat_map(|view| view.images.iter().map(move |(name, file)| (view, name, file)));
         let output = named.filter(|(_, _, file)| file.path == path).find_map(|(view, name, _)| view.outputs.get(name));
-        let nothing = ImageVerification { kind: Kind::Colour, pixels: 0, differing: 0, greatest: None, incomparable: None };
+        let nothing =
+            ImageVerification { kind: Kind::Colour, pixels: 0, differing: 0, greatest: None, incomparable: None };
         // An altered file need not be an image any more.
         let pair = decode(&self.folder.join(path)).and_then(|a| Ok((a, decode(&drawn.join(path))?)));
         let (a, b) = match pair {
@@ -180,7 +179,11 @@ fn present(folder: &Path) -> Result<Vec<String>, ComparisonError> {
 
 /// What the manifest of the folder says otherwise than one made now. Hashes of files are compared with the files;
 /// renderer, budget and version say how it was made.
-fn manifest_differences(folder: &Path, made: &Made, drawn: Option<&Path>) -> Result<Vec<DrawDifference>, ComparisonError> {
+fn manifest_differences(
+    folder: &Path,
+    made: &Made,
+    drawn: Option<&Path>,
+) -> Result<Vec<DrawDifference>, ComparisonError> {
     let here = read(&folder.join(MANIFEST))?;
     let again = match drawn {
         Some(drawn) => read(&drawn.join(MANIFEST))?,
@@ -196,7 +199,9 @@ fn manifest_differences(folder: &Path, made: &Made, drawn: Option<&Path>) -> Res
         for key in compared.iter().filter(|key| again.get(**key).is_some()) {
             flatten(key, &manifest[*key], &mut out);
         }
-        out.retain(|path, _| !(path.starts_with("views") && (path.ends_with(".sha256") || path.contains(".standard_errors."))));
+        out.retain(|path, _| {
+            !(path.starts_with("views") && (path.ends_with(".sha256") || path.contains(".standard_errors.")))
+        });
         out
     };
     let (a, b) = (flat(&here), flat(&again));

@@ -85,16 +85,18 @@ pub fn locate(stored: &Stored, folder: &Path, options: &VerifyOptions) -> Result
 /// The main recipe among the inputs.
 fn main_input<'a>(stored: &'a Stored, options: &VerifyOptions) -> Result<&'a StoredInput, ComparisonError> {
     let recipes = || stored.inputs.iter().filter(|input| input.role == "recipe");
-    let given = options.recipe.as_ref().and_then(|path| path.file_name()).map(|name| name.to_string_lossy().into_owned());
+    let given =
+        options.recipe.as_ref().and_then(|path| path.file_name()).map(|name| name.to_string_lossy().into_owned());
     let named = stored.recipe.clone().or(given);
     let Some(name) = named else {
         let why = "its manifest does not say which recipe made it; `--recipe FILE` does".to_owned();
         return Err(ComparisonError::Unverifiable(why));
     };
     let beside = |input: &&StoredInput| input.name == name && input.path.as_ref().is_none_or(|path| *path == name);
-    recipes().find(beside).or_else(|| recipes().find(|input| input.name == name)).ok_or_else(|| {
-        ComparisonError::Unverifiable(format!("its manifest has no recipe {name} among the inputs"))
-    })
+    recipes()
+        .find(beside)
+        .or_else(|| recipes().find(|input| input.name == name))
+        .ok_or_else(|| ComparisonError::Unverifiable(format!("its manifest has no recipe {name} among the inputs")))
 }
 
 /// Where inputs are looked for: what the command line names, about the dataset, here.

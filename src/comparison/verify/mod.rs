@@ -22,9 +22,10 @@ use super::views::DrawDifference;
 use crate::dataset::manifest::InputFile;
 use crate::gpu::GpuError;
 use crate::pipeline::{
-    BackendChoice, BuiltScene, PipelineError, Progress, Recipe, RecipeOptions, RenderOptions, build_scenes, load_recipe,
-    render_built, write_geometry,
+    BackendChoice, BuiltScene, PipelineError, Progress, Recipe, RecipeOptions, RenderOptions, build_scenes,
+    load_recipe, render_built, write_geometry,
 };
+use crate::reference::Options;
 use crate::source::SourceMap;
 pub use text::verification_text;
 
@@ -140,7 +141,8 @@ pub fn verify(
     let stored = folders.iter().map(|folder| Stored::read(folder)).collect::<Result<Vec<_>, _>>()?;
     let first = &stored[0];
     if let Some(other) = stored.iter().find(|other| other.inputs != first.inputs || other.recipe != first.recipe) {
-        let why = format!("datasets {} and {} are of different runs; verify them one by one", first.dataset, other.dataset);
+        let why =
+            format!("datasets {} and {} are of different runs; verify them one by one", first.dataset, other.dataset);
         return Err(ComparisonError::Unverifiable(why));
     }
 
@@ -207,7 +209,7 @@ impl Made<'_> {
             output: self.folder.to_owned(),
             views,
             backend: if reference { BackendChoice::Reference } else { BackendChoice::Gpu },
-            samples: stored.renderer.samples_per_pixel,
+            samples: stored.renderer.samples_per_pixel.map(asked_for),
             dataset: Some(stored.dataset.clone()),
             settled: settled.collect::<BTreeMap<_, _>>(),
         };
@@ -226,9 +228,15 @@ impl Made<'_> {
     }
 }
 
+/// Samples to ask the reference for, so that it takes this many.
+fn asked_for(taken: u32) -> u32 {
+    (1..=taken).find(|asked| Options::of_samples(*asked).samples() == taken).unwrap_or(taken)
+}
+
 /// Holds inputs of some roles against the manifest.
 fn check_inputs(stored: &Stored, found: &[InputFile], of: &dyn Fn(&str) -> bool) -> Result<(), ComparisonError> {
-    let wanted = stored.inputs.iter().filter(|i| of(&i.role)).map(|i| (i.role.as_str(), i.name.as_str(), i.sha256.as_str()));
+    let wanted =
+        stored.inputs.iter().filter(|i| of(&i.role)).map(|i| (i.role.as_str(), i.name.as_str(), i.sha256.as_str()));
     let wanted: BTreeSet<_> = wanted.collect();
     let found = found.iter().filter(|i| of(i.role)).map(|i| (i.role, i.name.as_str(), i.sha256.as_str()));
     let found: BTreeSet<_> = found.collect();
@@ -237,12 +245,16 @@ fn check_inputs(stored: &Stored, found: &[InputFile], of: &dyn Fn(&str) -> bool)
         let other = found.difference(&wanted).find(|(r, n, _)| r == role && n == name);
         lines.push(match other {
             Some((_, _, other)) => another_content(role, name, sha256, "what the recipe finds", other),
-            None => format!("{role} {name}: the dataset was made with it (sha256 {sha256}), the recipe does not read it now"),
+            None => format!(
+                "{role} {name}: the dataset was made with it (sha256 {sha256}), the recipe does not read it now"
+            ),
         });
     }
     for (role, name, sha256) in found.difference(&wanted) {
         if !wanted.iter().any(|(r, n, _)| r == role && n == name) {
-            lines.push(format!("{role} {name}: the recipe reads it now (sha256 {sha256}), the dataset was made without it"));
+            lines.push(format!(
+                "{role} {name}: the recipe reads it now (sha256 {sha256}), the dataset was made without it"
+            ));
         }
     }
     if lines.is_empty() { Ok(()) } else { Err(ComparisonError::Inputs(lines)) }
@@ -251,4 +263,18 @@ fn check_inputs(stored: &Stored, found: &[InputFile], of: &dyn Fn(&str) -> bool)
 /// The line on an input that is not what it was.
 fn another_content(role: &str, name: &str, wanted: &str, place: &str, found: &str) -> String {
     format!("{role} {name}: another content: the dataset was made of sha256 {wanted}, {place} has {found}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn as_many_samples_are_taken_again_in_the_same_grid() {
+        for asked in 1..2000 {
+            let options = Options::of_samples(asked);
+            let again = Options::of_samples(asked_for(options.samples()));
+            assert_eq!((options.side, options.passes), (again.side, again.passes), "{asked}");
+        }
+    }
 }

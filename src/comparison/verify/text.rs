@@ -44,7 +44,8 @@ fn dataset_text(out: &mut String, dataset: &DatasetVerification, several: bool) 
     }
     for scene in &dataset.scenes {
         let [made, again] = scene.geometry_sha256.each_ref().map(|sha256| short(sha256));
-        let told = if made == again { format!("same, {made}") } else { format!("different: {made}, made again {again}") };
+        let told =
+            if made == again { format!("same, {made}") } else { format!("different: {made}, made again {again}") };
         let _ = writeln!(out, "{:<10} {}: {told}", "geometry", scene.scene);
     }
     manifest(out, dataset);
@@ -81,10 +82,15 @@ fn manifest(out: &mut String, dataset: &DatasetVerification) {
         let _ = writeln!(out, "{:<10} same", "manifest");
         return;
     }
-    let _ = writeln!(out, "{:<10} {} differ from a manifest made now", "manifest", match found.len() {
-        1 => "1 value".to_owned(),
-        n => format!("{n} values"),
-    });
+    let _ = writeln!(
+        out,
+        "{:<10} {} differ from a manifest made now",
+        "manifest",
+        match found.len() {
+            1 => "1 value".to_owned(),
+            n => format!("{n} values"),
+        }
+    );
     for difference in found.iter().take(MOST) {
         let _ = writeln!(out, "  ~ {}  {}, made again {}", difference.path, difference.a, difference.b);
     }
@@ -148,7 +154,9 @@ fn detail(file: &FileVerification) -> String {
             Some(format!("{}, made again {}", short(&manifest), short(&again)))
         }
         (FileFate::Unexpected, Some(_), _, None) => Some("made again, it does not come about".to_owned()),
-        (FileFate::Unexpected, None, _, _) => Some("made again, it comes about; the manifest does not name it".to_owned()),
+        (FileFate::Unexpected, None, _, _) => {
+            Some("made again, it comes about; the manifest does not name it".to_owned())
+        }
         _ => None,
     };
     let all: Vec<String> = [hashes, image].into_iter().flatten().collect();
