@@ -17,7 +17,7 @@ use super::snapshot::{
 use super::stored::{Stored, StoredScene, dataset_folders};
 use crate::pipeline::{
     BuiltScene, PipelineError, Progress, Recipe, RecipeOptions, RenderOptions, acquisition_record, build_scenes,
-    load_recipe, render_built, scene_views, write_geometry,
+    drawn_views, load_recipe, render_built, write_geometry,
 };
 use crate::source::SourceMap;
 
@@ -129,7 +129,7 @@ fn planned(recipe: &Recipe, built: &[BuiltScene]) -> BTreeMap<String, DatasetSna
     for dataset in &recipe.spec.datasets {
         let mut snapshot = DatasetSnapshot::default();
         for (index, scene) in built.iter().enumerate() {
-            for drawn in scene_views(recipe, dataset, index, scene, &|_| true).drawn {
+            for drawn in drawn_views(recipe, dataset, index, scene) {
                 let view = ViewSnapshot {
                     scene: scene.record.name.clone(),
                     draws: drawn.draws.iter().map(|draw| (draw.path.clone(), draw.value.into())).collect(),

@@ -165,7 +165,7 @@ fn objects(scene: Scene) -> Vec<ObjectSnapshot> {
         class: object.class.name().to_owned(),
         before: object.presence != Presence::AfterOnly,
         after: object.presence != Presence::BeforeOnly,
-        mesh: mesh(object.mesh, &materials),
+        mesh: mesh(TriMesh::clone(&object.mesh), &materials),
     };
     scene.objects.into_iter().map(one).collect()
 }

@@ -10,4 +10,4 @@ pub mod writer;
 
 pub use layout::{image_path, is_levir_label};
 pub use manifest::Manifest;
-pub use writer::{DatasetError, write_image};
+pub use writer::{DatasetError, encode_png, write_image};

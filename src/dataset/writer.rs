@@ -5,7 +5,8 @@ use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
-use image::{ExtendedColorType, ImageEncoder};
+use image::error::{UnsupportedError, UnsupportedErrorKind};
+use image::{ExtendedColorType, ImageEncoder, ImageError, ImageFormat};
 use sha2::{Digest, Sha256};
 use tiff::encoder::colortype::{Gray32, Gray32Float};
 use tiff::encoder::{Compression, DeflateLevel, TiffEncoder};
@@ -60,19 +61,13 @@ pub fn write_image(
         PathBuf::from(name)
     };
     let mut bytes = Vec::new();
-    let mut as_png = |data: &[u8], color: ExtendedColorType| {
-        let name = with_suffix(".png");
-        match png(&mut bytes, data, (width, height), color) {
-            Ok(()) => Ok(name),
-            Err(source) => Err(DatasetError::Png { path: folder.join(&name), source }),
-        }
-    };
     let name = match pixels {
-        Pixels::Rgb8(data) => as_png(data, ExtendedColorType::Rgb8)?,
-        Pixels::Gray8(data) => as_png(data, ExtendedColorType::L8)?,
-        // The encoder takes words in the machine's order and writes them as PNG has them, the higher byte first.
-        Pixels::Rgb16(data) => as_png(bytemuck::cast_slice(data), ExtendedColorType::Rgb16)?,
-        Pixels::Gray16(data) => as_png(bytemuck::cast_slice(data), ExtendedColorType::L16)?,
+        Pixels::Rgb8(_) | Pixels::Gray8(_) | Pixels::Rgb16(_) | Pixels::Gray16(_) => {
+            let name = with_suffix(".png");
+            bytes = encode_png((width, height), pixels)
+                .map_err(|source| DatasetError::Png { path: folder.join(&name), source })?;
+            name
+        }
         Pixels::Id32(data) => {
             let name = with_suffix(".tif");
             tiff::<Gray32>(&mut bytes, data, (width, height))
@@ -87,6 +82,28 @@ pub fn write_image(
         }
     };
     write_file(folder, &name, &bytes)
+}
+
+/// Colours, masks and classes as a PNG.
+///
+/// # Errors
+/// Also for instance numbers and depths, which PNG cannot hold.
+pub fn encode_png((width, height): (u32, u32), pixels: &Pixels) -> image::ImageResult<Vec<u8>> {
+    // The encoder takes words in the machine's order and writes them as PNG has them, the higher byte first.
+    let (data, color): (&[u8], _) = match pixels {
+        Pixels::Rgb8(data) => (data, ExtendedColorType::Rgb8),
+        Pixels::Gray8(data) => (data, ExtendedColorType::L8),
+        Pixels::Rgb16(data) => (bytemuck::cast_slice(data), ExtendedColorType::Rgb16),
+        Pixels::Gray16(data) => (bytemuck::cast_slice(data), ExtendedColorType::L16),
+        Pixels::Id32(_) | Pixels::Float32(_) => {
+            let kind = UnsupportedErrorKind::GenericFeature("numbers of 32 bits".to_owned());
+            let error = UnsupportedError::from_format_and_kind(ImageFormat::Png.into(), kind);
+            return Err(ImageError::Unsupported(error));
+        }
+    };
+    let mut bytes = Vec::new();
+    png(&mut bytes, data, (width, height), color)?;
+    Ok(bytes)
 }
 
 fn png(out: &mut Vec<u8>, data: &[u8], (w, h): (u32, u32), color: ExtendedColorType) -> image::ImageResult<()> {

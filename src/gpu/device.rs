@@ -1,5 +1,8 @@
 //! Device: opens a headless adapter, and turns wgpu's errors into [`GpuError`].
 
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use super::GpuError;
 
 /// The adapter that rendered, for manifests and messages.
@@ -21,6 +24,8 @@ pub struct Gpu {
     pub max_texture: u32,
     /// Whether passes can be timed by the device's clock.
     pub timestamps: bool,
+    /// Set once the device is gone.
+    lost: Arc<AtomicBool>,
 }
 
 impl Gpu {
@@ -55,7 +60,15 @@ impl Gpu {
             name: info.name,
         };
         let timestamps = !required_features.is_empty();
-        Ok(Gpu { device, queue, adapter, max_texture: limits.max_texture_dimension_2d, timestamps })
+        let lost = Arc::new(AtomicBool::new(false));
+        let told = lost.clone();
+        device.set_device_lost_callback(move |_, _| told.store(true, Ordering::Relaxed));
+        Ok(Gpu { device, queue, adapter, max_texture: limits.max_texture_dimension_2d, timestamps, lost })
+    }
+
+    /// Whether the device is gone: nothing works on it any more.
+    pub fn is_lost(&self) -> bool {
+        self.lost.load(Ordering::Relaxed)
     }
 
     /// Runs `work` and returns the first error that the device reported meanwhile, as one of ours.
@@ -63,6 +76,9 @@ impl Gpu {
         let validation = self.device.push_error_scope(wgpu::ErrorFilter::Validation);
         let memory = self.device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
         let internal = self.device.push_error_scope(wgpu::ErrorFilter::Internal);
+        if self.is_lost() {
+            return Err(self.failed(task, "the device is lost"));
+        }
         let result = work();
         let errors = [internal, memory, validation].map(|scope| pollster::block_on(scope.pop()));
         match errors.into_iter().flatten().next() {

@@ -100,6 +100,17 @@ impl Renderer {
         &self.gpu.adapter
     }
 
+    /// Whether the device is gone, after a driver's reset or because the adapter was taken out: open another renderer.
+    pub fn is_lost(&self) -> bool {
+        self.gpu.is_lost()
+    }
+
+    /// Takes the device away, as a driver's reset does.
+    #[cfg(test)]
+    pub(crate) fn lose(&self) {
+        self.gpu.device.destroy();
+    }
+
     /// Limits tiles to `samples` per side (1024 to 4096 are sensible): less memory, more passes over the geometry.
     pub fn set_tile(&mut self, samples: u32) {
         self.max_tile = samples.max(16);

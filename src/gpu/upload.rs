@@ -20,7 +20,7 @@ use crate::plan::attribute::Attribute;
 use crate::plan::pass::Surface;
 use crate::plan::summary::{least_alpha, material_surfaces};
 use crate::scene::reflectance::near_infrared_gain;
-use crate::scene::{Scene, SceneClass, SceneObject};
+use crate::scene::{Scene, SceneClass};
 
 /// Triangles of one object with one surface.
 #[derive(Clone, Debug)]
@@ -75,7 +75,7 @@ impl GpuScene {
             // The layers of the ground are one mesh without junctions.
             let mesh = match object.class {
                 SceneClass::Building => junctions::conforming(&object.mesh),
-                _ => Cow::Borrowed(&object.mesh),
+                _ => Cow::Borrowed(&*object.mesh),
             };
             let base = world.len() as u32;
             world.extend_from_slice(&mesh.positions);
@@ -106,7 +106,7 @@ impl GpuScene {
         GpuScene {
             chunks,
             indices,
-            bounds: scene.objects.iter().map(bounds).collect(),
+            bounds: scene.objects.iter().map(|object| object.mesh.bounds()).collect(),
             streams,
             positions: gpu.buffer("positions", &empty_positions, wgpu::BufferUsages::VERTEX),
             materials: gpu.buffer("materials", bytemuck::cast_slice(&materials), wgpu::BufferUsages::STORAGE),
@@ -199,10 +199,4 @@ fn layer(class: SceneClass) -> u8 {
         SceneClass::Landuse => 5,
         SceneClass::Terrain => 6,
     }
-}
-
-fn bounds(object: &SceneObject) -> Option<(DVec3, DVec3)> {
-    let mut positions = object.mesh.positions.iter().copied();
-    let first = positions.next()?;
-    Some(positions.fold((first, first), |(low, high), p| (low.min(p), high.max(p))))
 }

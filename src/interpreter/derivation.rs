@@ -5,6 +5,7 @@
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
+use std::time::Instant;
 
 use super::StartShape;
 use super::assets::Assets;
@@ -21,7 +22,9 @@ use super::start;
 use super::steps::{Path, StepId, Steps};
 use super::streets::Streets;
 use super::tree::ShapeTree;
+use super::used::Used;
 use super::value::Value;
+use super::watch::Watch;
 use crate::cga::program::{Program, RuleId};
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::source::Span;
@@ -67,6 +70,9 @@ pub struct Derivation<'p> {
     /// Of the shape that is being recomposed.
     pub sources: Option<Sources>,
     pub steps: Steps<'p>,
+    pub used: Used,
+    /// What is noted of each leaf and rule; most derivations are not watched.
+    pub watch: Option<Box<Watch>>,
 }
 
 /// A shape waiting for its rule.
@@ -114,7 +120,22 @@ impl<'p> Derivation<'p> {
             blocks: 0,
             sources: None,
             steps: Steps::default(),
+            used: Used::default(),
+            watch: None,
         }
+    }
+
+    /// Notes where leaves come from and what rules cost.
+    pub fn watched(mut self) -> Self {
+        self.watch = Some(Box::default());
+        self
+    }
+
+    /// As [`Derivation::run`], with what was noted.
+    pub fn run_watched(mut self) -> (ShapeTree, Watch) {
+        let _stopped = self.work();
+        let watch = self.watch.take().map_or_else(Watch::default, |watch| *watch);
+        (self.into_tree(), watch)
     }
 
     /// As a first derivation.
@@ -133,11 +154,16 @@ impl<'p> Derivation<'p> {
     pub fn run(mut self) -> ShapeTree {
         // A stop has left its reason in the diagnostics; what was made before it stays.
         let _stopped = self.work();
+        self.into_tree()
+    }
+
+    fn into_tree(self) -> ShapeTree {
         ShapeTree {
             leaves: self.leaves.into_list(),
             reports: self.reports.into_list(),
             prints: self.prints,
             diagnostics: self.diagnostics,
+            used: self.used,
         }
     }
 
@@ -154,16 +180,16 @@ impl<'p> Derivation<'p> {
             match task.symbol {
                 Symbol::Leaf(name) => {
                     self.note_leaf(&task);
-                    self.leaves.push(name, task.shape, &self.steps, task.step);
+                    self.push_leaf(name, task);
                 }
                 Symbol::Rule(rule) if self.is_small_detail(&task.shape) => {
                     let name = &self.program.rule(rule).name;
-                    self.leaves.push(name, task.shape, &self.steps, task.step);
+                    self.push_leaf(name, task);
                 }
                 Symbol::Rule(rule) => {
                     self.running = Some(task.step);
                     let children = std::mem::take(&mut self.spare);
-                    let mut children = self.derive_rule(rule, task, children)?;
+                    let mut children = self.watched_rule(rule, task, children)?;
                     self.pending.extend(children.drain(..).rev());
                     self.spare = children;
                     self.check_pending(rule)?;
@@ -171,6 +197,28 @@ impl<'p> Derivation<'p> {
             }
         }
         Ok(())
+    }
+
+    fn push_leaf(&mut self, name: &'p Arc<str>, task: Task<'p>) {
+        let before = self.leaves.len();
+        self.leaves.push(name, task.shape, &self.steps, task.step);
+        if let Some(watch) = &mut self.watch {
+            watch.leaves(&self.steps, task.step, self.leaves.len() - before);
+        }
+    }
+
+    /// Runs a rule; its time is noted where the derivation is watched.
+    fn watched_rule(&mut self, rule: RuleId, task: Task<'p>, children: Vec<Task<'p>>) -> Outcome<Vec<Task<'p>>> {
+        if self.watch.is_none() {
+            return self.derive_rule(rule, task, children);
+        }
+        let start = Instant::now();
+        let step = task.step;
+        let made = self.derive_rule(rule, task, children);
+        if let Some(watch) = &mut self.watch {
+            watch.rule(rule, step, start.elapsed());
+        }
+        made
     }
 
     /// Whether a shape is a piece of a facade too small for its rule to matter.
@@ -251,7 +299,11 @@ impl<'p> Derivation<'p> {
         if self.steps.depth(parent) >= limit {
             return self.stop("cga::limit-depth", span, format!("rules go deeper than {limit} in `{name}`"));
         }
-        Ok(self.steps.child(parent, index, name))
+        let child = self.steps.child(parent, index, name);
+        if let Some(watch) = &mut self.watch {
+            watch.step(child, parent, span);
+        }
+        Ok(child)
     }
 
     pub fn enter_expression(&mut self, span: Span) -> Outcome<()> {

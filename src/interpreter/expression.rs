@@ -104,6 +104,7 @@ impl<'p> Derivation<'p> {
     /// Evaluates a user function on the current shape.
     fn call_function(&mut self, id: crate::cga::program::FunctionId, args: &'p [Expr], env: &Env) -> Outcome<Value> {
         let function = self.program.function(id);
+        self.used.function(id);
         let mut slots = Vec::with_capacity(args.len() + function.locals.len());
         for arg in args {
             slots.push(self.eval(arg, env)?);

@@ -23,6 +23,10 @@ impl<'p> Leaves<'p> {
         self.attributes = attributes;
     }
 
+    pub fn len(&self) -> usize {
+        self.list.len()
+    }
+
     pub fn into_list(self) -> Vec<Leaf> {
         self.list
     }

@@ -49,7 +49,9 @@ pub mod text;
 mod topology;
 pub mod tree;
 mod trim_planes;
+pub mod used;
 mod value;
+pub mod watch;
 
 use std::sync::Arc;
 
@@ -60,6 +62,7 @@ pub use host::HostData;
 pub use limits::Limits;
 use seed::Seed;
 use tree::{Scalar, ShapeTree};
+use watch::Watch;
 
 use crate::cga::program::Program;
 use crate::geometry::Mesh;
@@ -119,6 +122,29 @@ pub fn derive_among(
     surroundings: &Surroundings,
 ) -> ShapeTree {
     Derivation::new(program, start, assets, limits).among(surroundings).run()
+}
+
+/// Derives one start shape as [`derive`] does, slower, and notes where its leaves come from. Queries see this start shape
+/// only, unless `surroundings` are given.
+pub fn derive_watched(
+    program: &Program,
+    start: &StartShape,
+    assets: &dyn Assets,
+    limits: &Limits,
+    surroundings: Option<&Surroundings>,
+) -> (ShapeTree, Watch) {
+    let watched = |surroundings: Option<&Surroundings>| {
+        let derivation = Derivation::new(program, start, assets, limits).watched();
+        match surroundings {
+            Some(surroundings) => derivation.among(surroundings).run_watched(),
+            None => derivation.run_watched(),
+        }
+    };
+    if surroundings.is_some() || !program.needs().asks() {
+        return watched(surroundings);
+    }
+    let own = survey(program, start, assets, limits);
+    watched(Some(&Surroundings { own: Some(&own), ..Surroundings::default() }))
 }
 
 #[cfg(test)]

@@ -50,13 +50,7 @@ pub fn prepare<'p>(run: &mut Derivation<'p>) -> Outcome<Option<Task<'p>>> {
 fn start_rule(run: &mut Derivation) -> Option<RuleId> {
     let program = run.program;
     let wanted = run.start.start_rule.clone();
-    let found = match &wanted {
-        Some(name) => program.rule_named(name, 0),
-        None => {
-            let first = || program.rules().iter().position(|r| r.parameters.is_empty());
-            program.start_rules().first().copied().or_else(|| first().map(|i| RuleId(i as u32)))
-        }
-    };
+    let found = program.start(wanted.as_deref());
     if found.is_none() {
         let source = program.files().first().map_or(SourceId(0), |f| f.source);
         let message = match &wanted {

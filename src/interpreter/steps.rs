@@ -10,7 +10,7 @@ use smallvec::SmallVec;
 pub type Path = SmallVec<[u32; 8]>;
 
 /// A shape's place in the tree.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct StepId(u32);
 
 #[derive(Debug)]
@@ -68,6 +68,14 @@ impl<'p> Steps<'p> {
         let mut path = Path::from_elem(0, self.depth(id) as usize);
         path.iter_mut().rev().zip(self.below_root(id)).for_each(|(place, step)| *place = step.index);
         path
+    }
+
+    /// The names that led here, from the root to the step's own.
+    pub fn names(&self, id: StepId) -> Vec<Arc<str>> {
+        let mut names: Vec<Arc<str>> = self.below_root(id).map(|step| step.name.clone()).collect();
+        names.extend(self.list.first().map(|root| root.name.clone()));
+        names.reverse();
+        names
     }
 
     /// The rules that led here, shortened in the middle: `Lot > Mass > … > Mass > Mass`.

@@ -38,6 +38,7 @@ impl<'p> Derivation<'p> {
     /// Runs a rule on a shape. `children` is an empty list to fill.
     pub fn derive_rule(&mut self, id: RuleId, task: Task<'p>, children: Vec<Task<'p>>) -> Outcome<Vec<Task<'p>>> {
         let rule = self.program.rule(id);
+        self.used.rule(id);
         let Task { mut shape, args, step, .. } = task;
         self.begin_trail(&mut shape);
         let mut body = Body { slots: args, children, step, span: rule.span };

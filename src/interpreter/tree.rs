@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::material::Material;
 use super::reports::Report;
 use super::steps::Path;
+use super::used::Used;
 use crate::diagnostics::Diagnostics;
 use crate::geometry::Mesh;
 
@@ -40,4 +41,6 @@ pub struct ShapeTree {
     pub prints: Vec<String>,
     /// Warnings and errors met while deriving; with an error the leaves are those made before it.
     pub diagnostics: Diagnostics,
+    /// Rules and functions that ran.
+    pub used: Used,
 }

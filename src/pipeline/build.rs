@@ -1,9 +1,12 @@
 //! One scene of a recipe, from files to meshes with labels.
 
-use super::derivation::derive_features;
+use std::sync::Arc;
+
+use super::derivation::{Derivation, derive_features};
 use super::error::PipelineError;
-use super::place::{Place, place};
-use super::preparation::assign;
+use super::memory::Memory;
+use super::place::{Place, Site, site};
+use super::preparation::{Assignment, PreparedScene, prepare};
 use super::progress::Progress;
 use super::recipe::Recipe;
 use super::record::{asset_files, geometry_hash, report_records};
@@ -13,19 +16,17 @@ use super::vegetation;
 use crate::dataset::manifest::{ChangeRecord, ChangedFeature, InputFile, SceneRecord};
 use crate::dataset::reports::SceneReports;
 use crate::diagnostics::Diagnostics;
-use crate::geodata::feature::{Feature, FeatureClass, FeatureId};
 use crate::geodata::ledger::{Ledger, Outcome};
 use crate::geodata::projection::LocalFrame;
 use crate::geodata::terrain::Terrain;
 use crate::geometry::Polygon;
 use crate::geometry::roof::CURVE_BANDS;
-use crate::interpreter::Limits;
+use crate::interpreter::{FileAssets, Limits};
 use crate::output::OutputError;
-use crate::plan::change::{Changed, draw_changes};
 use crate::scene::Scene;
 use crate::scene::assemble::{FeatureParts, TERRAIN_INSTANCE, assemble, ground_layers};
-use crate::scene::ground::build_ground;
-use crate::spec::render_spec::DatasetSpec;
+use crate::scene::ground::GroundMesh;
+use crate::spec::render_spec::{DatasetSpec, SceneSpec};
 
 /// Greatest vertical distance allowed between the ground mesh and the elevation data, metres.
 pub const TERRAIN_TOLERANCE_M: f64 = 0.5;
@@ -34,7 +35,7 @@ pub const TERRAIN_TOLERANCE_M: f64 = 0.5;
 pub struct BuiltScene {
     pub scene: Scene,
     pub frame: LocalFrame,
-    pub terrain: Terrain,
+    pub terrain: Arc<Terrain>,
     pub record: SceneRecord,
     pub reports: SceneReports,
     /// Of every feature, in the order of their ids.
@@ -46,16 +47,6 @@ pub struct BuiltScene {
     /// Mistakes met while deriving.
     pub diagnostics: Diagnostics,
     pub prints: Vec<String>,
-}
-
-/// What a recipe makes of a feature.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Assignment {
-    pub feature: FeatureId,
-    pub class: FeatureClass,
-    /// Index into the scene's rules.
-    pub rule: Option<usize>,
-    pub change: Option<Changed>,
 }
 
 /// Whether meshes are checked for defects.
@@ -100,26 +91,64 @@ pub fn build_scene(
     checks: Checks,
     progress: &dyn Progress,
 ) -> Result<BuiltScene, PipelineError> {
+    Ok(alone(rebuild_scene(recipe, index, checks, &mut Memory::default(), progress)?))
+}
+
+/// A scene that no memory keeps.
+fn alone(built: Arc<BuiltScene>) -> BuiltScene {
+    Arc::into_inner(built).expect("a memory that keeps nothing has no reference")
+}
+
+/// As [`build_scene`], with what the memory still has of the builds before of the same scene; the same `Arc` as before
+/// where nothing changed.
+pub fn rebuild_scene(
+    recipe: &Recipe,
+    index: usize,
+    checks: Checks,
+    memory: &mut Memory,
+    progress: &dyn Progress,
+) -> Result<Arc<BuiltScene>, PipelineError> {
+    memory.begin();
+    let built = rebuild(recipe, index, checks, memory, progress);
+    memory.end();
+    built
+}
+
+fn rebuild(
+    recipe: &Recipe,
+    index: usize,
+    checks: Checks,
+    memory: &mut Memory,
+    progress: &dyn Progress,
+) -> Result<Arc<BuiltScene>, PipelineError> {
     let usual = Fineness::of(recipe, index);
     let Some(promised_m) = height_budget(recipe, index) else {
-        return build_scene_within(recipe, index, usual, checks, progress);
+        return build(recipe, index, usual, checks, memory, progress);
     };
-    // The tolerance is aimed at; along borders that are split later a finer one may be needed to keep it.
+    let built = within_height(promised_m, |terrain_tolerance_m| {
+        let built = build(recipe, index, Fineness { terrain_tolerance_m, ..usual }, checks, memory, progress)?;
+        let error_m = built.record.terrain_error_m;
+        Ok::<_, PipelineError>((built, error_m))
+    })?;
+    let name = || recipe.spec.scenes[index].name.clone();
+    built.map_err(|best_m| PipelineError::HeightBudget { scene: name(), promised_m, best_m })
+}
+
+/// The first of what `build` makes of ever finer tolerances whose error keeps a promise, metres, or else the least error.
+/// The tolerance is aimed at; along borders that are split later a finer one may be needed to keep it.
+fn within_height<T, E>(
+    promised_m: f64,
+    mut build: impl FnMut(f64) -> Result<(T, f64), E>,
+) -> Result<Result<T, f64>, E> {
     let mut best_m = f64::INFINITY;
     for share in [1.0, 0.5, 0.25, 0.125] {
-        let built = build_scene_within(
-            recipe,
-            index,
-            Fineness { terrain_tolerance_m: promised_m * share, ..usual },
-            checks,
-            progress,
-        )?;
-        if built.record.terrain_error_m <= promised_m {
-            return Ok(built);
+        let (built, error_m) = build(promised_m * share)?;
+        if error_m <= promised_m {
+            return Ok(Ok(built));
         }
-        best_m = best_m.min(built.record.terrain_error_m);
+        best_m = best_m.min(error_m);
     }
-    Err(PipelineError::HeightBudget { scene: recipe.spec.scenes[index].name.clone(), promised_m, best_m })
+    Ok(Err(best_m))
 }
 
 /// The least height that datasets of a scene promise of its ground.
@@ -135,49 +164,81 @@ pub fn build_scene_within(
     checks: Checks,
     progress: &dyn Progress,
 ) -> Result<BuiltScene, PipelineError> {
+    Ok(alone(build(recipe, index, fineness, checks, &mut Memory::default(), progress)?))
+}
+
+fn build(
+    recipe: &Recipe,
+    index: usize,
+    fineness: Fineness,
+    checks: Checks,
+    memory: &mut Memory,
+    progress: &dyn Progress,
+) -> Result<Arc<BuiltScene>, PipelineError> {
     let spec = &recipe.spec.scenes[index];
 
-    // Read the map and the elevation.
-    let place = place(recipe, spec, progress)?;
-
-    // Draw what changes.
-    let assigned = assign(&spec.rules, &place.features);
-    let with_rules: Vec<usize> = (0..place.features.len()).filter(|&i| assigned[i].is_some()).collect();
-    let candidate = |&i: &usize| (place.features[i].id, place.features[i].class, &place.features[i].tags);
-    let candidates: Vec<_> = with_rules.iter().map(candidate).collect();
-    let (changed, drawn) = draw_changes(&recipe.spec, spec, &candidates);
-    let mut touched = vec![None; place.features.len()];
-    for (i, change) in with_rules.into_iter().zip(changed) {
-        touched[i] = change;
-    }
-
-    let assignment =
-        |(i, f): (usize, &Feature)| Assignment { feature: f.id, class: f.class, rule: assigned[i], change: touched[i] };
-    let assignments = place.features.iter().enumerate().map(assignment).collect();
+    // Read the map and the elevation, and draw what changes.
+    let site = memory.timed("place", |memory| site(recipe, spec, memory, progress))?;
+    let prepared = memory.timed("prepare", |memory| prepare(recipe, spec, &site, memory));
 
     // Derive every feature in every state.
-    let assets = recipe.assets();
+    let assets = memory.assets(recipe);
     let limits = Limits { detail: fineness.detail_m, curve_bands: fineness.curve_bands, ..Limits::default() };
-    let derived = derive_features(recipe, spec, &place, (&assigned, &touched), &assets, (&limits, checks), progress);
+    let derived = memory.timed("derive", |memory| {
+        derive_features(recipe, (&prepared, &site), &assets, (&limits, checks), memory, progress)
+    })?;
 
     // Lay the ground under them and put everything together.
     progress.begin("scene", None);
+    let place = &site.place;
     let layers = ground_layers(&derived.features);
-    let sites = place.greenery.as_ref().map(|_| vegetation::sites(&place.features, &derived.features));
     let area = Polygon { outer: place.area.clone(), holes: Vec::new() };
-    let ground = build_ground(&area, &place.terrain, fineness.terrain_tolerance_m, &layers)
+    let ground = memory
+        .timed("ground", |memory| memory.ground(area, &place.terrain, fineness.terrain_tolerance_m, layers))
         .map_err(|source| PipelineError::Ground { scene: spec.name.clone(), source })?;
-    let changed = change_records(recipe, &derived.features, &drawn);
-    let mut scene = assemble(derived.features, &ground);
-    let textures = textures::load(&mut scene, &assets)?;
+    if progress.is_stopped() {
+        return Err(PipelineError::Stopped);
+    }
+    if let Some(built) = memory.unchanged(spec, fineness, &prepared, &assets) {
+        progress.end(&format!("{} triangles", built.record.triangles));
+        return Ok(built);
+    }
+    let parts = Parts { recipe, spec, site: &site, prepared: &prepared, assets: &assets, ground: &ground };
+    let built = Arc::new(memory.timed("assemble", |memory| put_together(parts, derived, (fineness, checks), memory))?);
+    progress.end(&format!("{} triangles", built.record.triangles));
+    memory.keep_scene(&built, fineness, prepared, assets);
+    Ok(built)
+}
+
+/// What a scene is put together from, besides its derivations.
+struct Parts<'a> {
+    recipe: &'a Recipe,
+    spec: &'a SceneSpec,
+    site: &'a Site,
+    prepared: &'a PreparedScene,
+    assets: &'a FileAssets,
+    ground: &'a Arc<GroundMesh>,
+}
+
+fn put_together(
+    Parts { recipe, spec, site, prepared, assets, ground }: Parts,
+    derived: Derivation,
+    (fineness, checks): (Fineness, Checks),
+    memory: &mut Memory,
+) -> Result<BuiltScene, PipelineError> {
+    let Place { frame, terrain, ledger, features, greenery, .. } = &site.place;
+    let sites = greenery.as_ref().map(|_| vegetation::sites(features, &derived.features));
+    let changed = change_records(recipe, &derived.features, &prepared.drawn);
+    let mut scene = assemble(derived.features, ground, &mut memory.meshes);
+    let textures = textures::load(&mut scene, assets, &mut memory.textures)?;
     let mut files = textures.files;
-    files.extend(asset_files(&assets).map_err(|e| OutputError::new(&recipe.path, e))?);
-    let Place { frame, terrain, mut ledger, features, greenery, .. } = place;
-    if let (Some(greenery), Some(sites)) = (&greenery, &sites) {
-        vegetation::plant(&mut scene, greenery, sites, &terrain, spec.seed, &mut ledger);
+    files.extend(asset_files(assets).map_err(|e| OutputError::new(&recipe.path, e))?);
+    let mut ledger = ledger.clone();
+    if let (Some(greenery), Some(sites)) = (greenery, &sites) {
+        vegetation::plant(&mut scene, greenery, sites, terrain, spec.seed, &mut ledger);
     }
     ledger.revise(features.iter().map(|f| f.id.to_string()).zip(derived.outcomes));
-    ledger.merge(derived.ledger);
+    ledger.merge(prepared.ledger.clone());
     if ground.without_height > 0 {
         let what = "elevation: ground triangles outside the files, left open";
         *ledger.assumptions.entry(what.to_owned()).or_default() += ground.without_height;
@@ -197,15 +258,16 @@ pub fn build_scene_within(
         &scene,
         spec.name.clone(),
         spec.seed,
-        &frame,
+        frame,
         (fineness, ground.worst_error_m),
         changed,
         &reports,
         ledger,
         features.len(),
     );
-    progress.end(&format!("{} triangles", record.triangles));
+    let (frame, terrain) = (*frame, terrain.clone());
     let (diagnostics, prints) = (derived.diagnostics, derived.prints);
+    let assignments = prepared.assignments.clone();
     Ok(BuiltScene { scene, frame, terrain, record, reports, assignments, validation, files, diagnostics, prints })
 }
 
@@ -264,4 +326,26 @@ fn change_records(
         });
     }
     records
+}
+
+#[cfg(test)]
+mod tests {
+    use std::convert::Infallible;
+
+    use super::*;
+
+    #[test]
+    fn a_height_is_kept_by_the_coarsest_tolerance_that_does_or_the_least_error_is_named() {
+        let mut tried = Vec::new();
+        let kept = within_height(0.5, |tolerance| {
+            tried.push(tolerance);
+            Ok::<_, Infallible>((tolerance, 3.0 * tolerance))
+        });
+        assert_eq!((kept, tried), (Ok(Ok(0.125)), vec![0.5, 0.25, 0.125]));
+        let never = within_height(0.5, |tolerance| Ok::<_, Infallible>(((), 2.0 - tolerance)));
+        assert_eq!(never, Ok(Err(1.5)));
+        assert_eq!(within_height(0.5, |_| Err::<((), f64), _>("no elevation")), Err("no elevation"));
+        let error = PipelineError::HeightBudget { scene: "town".to_owned(), promised_m: 0.5, best_m: 1.5 };
+        assert!(error.to_string().contains("1.5"), "{error}");
+    }
 }

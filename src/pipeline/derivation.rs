@@ -1,30 +1,35 @@
-//! Features → parts. In: a scene's features with their rules and changes. Out: one [`FeatureParts`] per feature that
-//! has something to show, the ledger, the reports and the mistakes met while deriving. Parallel; order and results do not
-//! depend on the number of threads.
+//! Features → parts. In: a scene's start shapes. Out: one [`FeatureParts`] per feature that has something to show, the
+//! ledger, the reports and the mistakes met while deriving. What the memory has and nothing changed is taken from there.
+//! Parallel; order and results do not depend on the number of threads.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Instant;
 
 use rayon::prelude::*;
 
 use super::build::Checks;
+use super::error::PipelineError;
 use super::lot::Lot;
-use super::neighbours::{derive_all, worlds};
-use super::place::Place;
-use super::preparation::{Preparation, Prepared, State, road_ends};
+use super::memory::Memory;
+use super::memory::questions::Noting;
+use super::memory::states::{KeptState, Round, StateKey, States};
+use super::neighbours::{derive_some, worlds};
+use super::place::Site;
+use super::preparation::{Prepared, PreparedScene, PreparedState, State};
 use super::progress::Progress;
 use super::recipe::Recipe;
 use super::validation;
 use crate::diagnostics::{Diagnostics, Severity};
-use crate::geodata::ledger::{Ledger, Outcome};
+use crate::geodata::ledger::Outcome;
 use crate::geodata::terrain::Terrain;
 use crate::geometry::mesh_checks::Bodies;
-use crate::interpreter::Limits;
-use crate::interpreter::assets::Assets;
 use crate::interpreter::context::Member;
 use crate::interpreter::reports::Report;
 use crate::interpreter::tree::ShapeTree;
-use crate::plan::change::Changed;
+use crate::interpreter::{FileAssets, Limits};
 use crate::scene::assemble::{FeatureParts, StateParts};
 use crate::scene::parts::Parts;
-use crate::spec::render_spec::SceneSpec;
 
 /// Warnings after which a feature is there in a simpler form than its rules asked for.
 const FALLBACKS: &[&str] = &[
@@ -38,13 +43,15 @@ const FALLBACKS: &[&str] = &[
     "cga::missing-texture",
 ];
 
+/// A build that keeps things for the next one is given up once so many derivations met a limit: rules that never end
+/// would take minutes on a whole town, and whoever edits them waits.
+const MOST_ENDLESS: usize = 8;
+
 /// What derivation gives.
 pub struct Derivation {
     pub features: Vec<FeatureParts>,
     /// What became of each feature, in the order of the features.
     pub outcomes: Vec<Outcome>,
-    /// Assumptions only.
-    pub ledger: Ledger,
     /// By feature, without those that reported nothing, in the order of the features.
     pub reports: Vec<(String, Vec<Report>)>,
     /// By feature with geometry, in the order of the features; empty where no checks are asked for.
@@ -55,65 +62,144 @@ pub struct Derivation {
 }
 
 /// What one state of a feature gives.
-struct Derived {
-    parts: Parts,
-    checked: Option<Bodies>,
-    reports: Vec<Report>,
-    diagnostics: Diagnostics,
-    prints: Vec<String>,
+pub struct Derived {
+    pub parts: Arc<Parts>,
+    pub checked: Option<Bodies>,
+    pub reports: Vec<Report>,
+    pub diagnostics: Diagnostics,
+    pub prints: Vec<String>,
 }
 
-/// Derives all features of a scene in all their states.
-pub fn derive_features(
-    recipe: &Recipe,
-    scene: &SceneSpec,
-    place: &Place,
-    (assigned, touched): (&[Option<usize>], &[Option<Changed>]),
-    assets: &dyn Assets,
-    (limits, checks): (&Limits, Checks),
-    progress: &dyn Progress,
-) -> Derivation {
-    let preparation = Preparation::new(recipe, scene, place);
-    let mut prepared: Vec<Prepared> = place
-        .features
-        .par_iter()
-        .zip(road_ends(&place.features))
-        .zip(assigned.par_iter().zip(touched))
-        .map(|((feature, ends), (rule, touched))| preparation.feature(feature, ends, *rule, *touched))
-        .collect();
+/// A state that the scene has.
+struct Wanted<'a> {
+    /// Number of its feature.
+    feature: usize,
+    key: StateKey,
+    state: &'a PreparedState,
+    lot: &'a Arc<Lot>,
+}
 
-    // One list of all states, each with the number of its feature.
-    let (mut states, mut members) = (Vec::new(), Vec::new());
-    for (number, feature) in prepared.iter_mut().enumerate() {
-        for (state, program, start) in feature.states.drain(..) {
-            let (is_in, sees) = worlds(state.presence);
-            members.push(Member { program, start, is_in, sees });
-            states.push((number, state));
+/// Derives all features of a scene in all their states, as far as the memory does not have them.
+pub(super) fn derive_features(
+    recipe: &Recipe,
+    (prepared, site): (&PreparedScene, &Site),
+    assets: &FileAssets,
+    (limits, checks): (&Limits, Checks),
+    memory: &mut Memory,
+    progress: &dyn Progress,
+) -> Result<Derivation, PipelineError> {
+    let features = &site.place.features;
+    let (mut members, mut wanted) = (Vec::new(), Vec::new());
+    for (number, feature) in prepared.features.iter().enumerate() {
+        for state in &feature.states {
+            let (is_in, sees) = worlds(state.state.presence);
+            let program = recipe.programs.with_key(&state.program);
+            members.push(Member { program, start: state.start.clone(), is_in, sees });
+            let lot = feature.lot.as_ref().expect("a feature with states has a lot");
+            wanted.push(Wanted { feature: number, key: (features[number].id, state.state.presence), state, lot });
         }
     }
-    progress.begin("derive", Some(members.len() as u64));
-    let derived = derive_all(&members, assets, limits, |number, tree| {
-        let lot = prepared[states[number].0].lot.as_ref().expect("a feature with states has a lot");
-        let derived = derived(tree, lot, &place.terrain, checks);
-        progress.step(1);
-        derived
-    });
+    let each =
+        |number: usize, tree: ShapeTree| Arc::new(derived(tree, wanted[number].lot, &site.place.terrain, checks));
+    let made = if memory.keeps {
+        let round = memory.states.begin(&recipe.programs, limits, checks);
+        let valid = valid(&members, &wanted, &memory.states, &round);
+        let kept = completed(&members, &wanted, valid, (assets, limits), memory, progress, &each)?;
+        let made = kept.iter().map(|state| state.derived.clone()).collect();
+        let keys = wanted.iter().map(|wanted| wanted.key);
+        memory.states.finish(keys.zip(kept).collect(), round, assets, &mut memory.files);
+        made
+    } else {
+        progress.begin("derive", Some(members.len() as u64));
+        let all: Vec<usize> = (0..members.len()).collect();
+        derive_some(&members, &all, assets, limits, |number, derive| {
+            let made = each(number, derive(assets));
+            progress.step(1);
+            made
+        })
+    };
+    let out = gathered(prepared, site, &wanted, made);
+    let triangles: usize = out.features.iter().flat_map(|f| &f.states).map(|s| s.parts.solid.triangles.len()).sum();
+    progress.end(&format!("{} features, {triangles} triangles", out.features.len()));
+    Ok(out)
+}
 
+/// The derivations that are still valid. Programs that ask about other shapes are derived again unless nothing changed
+/// at all.
+fn valid(members: &[Member], wanted: &[Wanted], states: &States, round: &Round) -> Vec<Option<KeptState>> {
+    let asks = |number: usize| members[number].program.needs().asks();
+    let one =
+        |(number, wanted): (usize, &Wanted)| states.valid(&wanted.key, wanted.state, wanted.lot, asks(number), round);
+    let mut valid: Vec<Option<KeptState>> = wanted.par_iter().enumerate().map(one).collect();
+    let quiet = states.len() == wanted.len() && !states.has_new_answers() && valid.iter().all(Option::is_some);
+    if !quiet {
+        (0..valid.len()).filter(|&number| asks(number)).for_each(|number| valid[number] = None);
+    }
+    valid
+}
+
+/// Derives what is not valid.
+fn completed(
+    members: &[Member],
+    wanted: &[Wanted],
+    mut valid: Vec<Option<KeptState>>,
+    (assets, limits): (&FileAssets, &Limits),
+    memory: &mut Memory,
+    progress: &dyn Progress,
+    each: &(dyn Fn(usize, ShapeTree) -> Arc<Derived> + Sync),
+) -> Result<Vec<KeptState>, PipelineError> {
+    let missing: Vec<usize> = (0..valid.len()).filter(|&number| valid[number].is_none()).collect();
+    progress.begin("derive", Some(missing.len() as u64));
+    let endless = AtomicUsize::new(0);
+    let questions = &memory.states.questions;
+    let made = derive_some(members, &missing, assets, limits, |number, derive| {
+        if progress.is_stopped() || endless.load(Ordering::Relaxed) >= MOST_ENDLESS {
+            return None;
+        }
+        let (noting, start) = (Noting::new(assets, questions), Instant::now());
+        let mut tree = derive(&noting);
+        let used = std::mem::take(&mut tree.used);
+        let seconds = start.elapsed().as_secs_f64();
+        let is_endless =
+            tree.diagnostics.iter().any(|d| d.severity == Severity::Error && d.code.starts_with("cga::limit"));
+        endless.fetch_add(usize::from(is_endless), Ordering::Relaxed);
+        let derived = each(number, tree);
+        progress.step(1);
+        let Wanted { state: PreparedState { state, program, start }, lot, .. } = wanted[number];
+        let (state, start, lot, program, asked) = (*state, start.clone(), lot.clone(), program.clone(), noting.asked());
+        Some(KeptState { state, start, lot, program, derived, asked, used, seconds })
+    });
+    if progress.is_stopped() {
+        return Err(PipelineError::Stopped);
+    }
+    if endless.into_inner() >= MOST_ENDLESS {
+        let mut all = Diagnostics::default();
+        made.into_iter().flatten().for_each(|state| all.extend(state.derived.diagnostics.clone()));
+        return Err(PipelineError::Endless(all.sorted()));
+    }
+    let log = memory.log_mut();
+    (log.derived, log.kept) = (missing.len(), valid.len() - missing.len());
+    for (number, state) in missing.into_iter().zip(made) {
+        valid[number] = state;
+    }
+    Ok(valid.into_iter().map(|state| state.expect("what was not valid was derived")).collect())
+}
+
+/// Puts the features together.
+fn gathered(prepared: &PreparedScene, site: &Site, wanted: &[Wanted], made: Vec<Arc<Derived>>) -> Derivation {
     let mut out = Derivation {
         features: Vec::new(),
         outcomes: Vec::new(),
-        ledger: Ledger::default(),
         reports: Vec::new(),
         checked: Vec::new(),
         diagnostics: Diagnostics::default(),
         prints: Vec::new(),
     };
-    let mut derived = states.into_iter().zip(derived).peekable();
-    for (number, (feature, prepared)) in place.features.iter().zip(prepared).enumerate() {
-        let own = std::iter::from_fn(|| derived.next_if(|((of, _), _)| *of == number)).map(|((_, s), d)| (s, d));
-        let share = share(prepared, own);
+    let mut derived = wanted.iter().zip(made).peekable();
+    for (number, (feature, prepared)) in site.place.features.iter().zip(&prepared.features).enumerate() {
+        let own = std::iter::from_fn(|| derived.next_if(|(wanted, _)| wanted.feature == number));
+        let share = share(prepared, own.map(|(wanted, derived)| (wanted.state.state, derived)));
         out.outcomes.push(share.outcome);
-        out.ledger.merge(share.ledger);
         if !share.reports.is_empty() {
             out.reports.push((feature.id.to_string(), share.reports));
         }
@@ -125,8 +211,6 @@ pub fn derive_features(
             out.features.push(FeatureParts { feature: feature.id, class, states: share.states });
         }
     }
-    let triangles: usize = out.features.iter().flat_map(|f| &f.states).map(|s| s.parts.solid.triangles.len()).sum();
-    progress.end(&format!("{} features, {triangles} triangles", out.features.len()));
     out.diagnostics = out.diagnostics.sorted();
     out
 }
@@ -136,15 +220,14 @@ fn derived(tree: ShapeTree, lot: &Lot, terrain: &Terrain, checks: Checks) -> Der
     let parts = if failed { Parts::default() } else { lot.parts(&tree.leaves, terrain) };
     let checked =
         (checks == Checks::All && !failed && !tree.leaves.is_empty()).then(|| validation::check(&tree.leaves));
-    let ShapeTree { diagnostics, prints, reports, .. } = tree;
-    Derived { parts, checked, reports, diagnostics, prints }
+    let ShapeTree { leaves: _, diagnostics, prints, reports, used: _ } = tree;
+    Derived { parts: parts.into(), checked, reports, diagnostics, prints }
 }
 
 /// One feature's share of the scene.
 struct Share {
     outcome: Outcome,
     states: Vec<StateParts>,
-    ledger: Ledger,
     reports: Vec<Report>,
     checked: Option<Bodies>,
     diagnostics: Diagnostics,
@@ -152,11 +235,10 @@ struct Share {
 }
 
 /// Puts the states of a feature together. A feature fails as a whole.
-fn share(prepared: Prepared, states: impl Iterator<Item = (State, Derived)>) -> Share {
+fn share(prepared: &Prepared, states: impl Iterator<Item = (State, Arc<Derived>)>) -> Share {
     let mut out = Share {
-        outcome: prepared.outcome,
+        outcome: prepared.outcome.clone(),
         states: Vec::new(),
-        ledger: prepared.ledger,
         reports: Vec::new(),
         checked: None,
         diagnostics: Diagnostics::default(),
@@ -169,7 +251,7 @@ fn share(prepared: Prepared, states: impl Iterator<Item = (State, Derived)>) -> 
         }
         if let Some(why) = failed.map(|d| format!("its rules failed: {}", d.message)) {
             out.outcome = Outcome::Skipped(why);
-            out.diagnostics.extend(derived.diagnostics);
+            out.diagnostics.extend(derived.diagnostics.clone());
             out.states.clear();
             out.reports.clear();
             out.checked = None;
@@ -180,16 +262,18 @@ fn share(prepared: Prepared, states: impl Iterator<Item = (State, Derived)>) -> 
         if let (Outcome::Ok, Some(simpler)) = (&out.outcome, simpler) {
             out.outcome = Outcome::FellBack(simpler.message.clone());
         }
-        if let Some(bodies) = derived.checked {
-            out.checked.get_or_insert_default().add(bodies);
+        if let Some(bodies) = &derived.checked {
+            out.checked.get_or_insert_default().add(bodies.clone());
         }
         if state.counts {
-            out.reports = derived.reports;
+            out.reports = derived.reports.clone();
         }
-        out.diagnostics.extend(derived.diagnostics);
-        out.prints.extend(derived.prints);
+        out.diagnostics.extend(derived.diagnostics.clone());
+        out.prints.extend(derived.prints.iter().cloned());
         let State { presence, change, level, counts: _ } = state;
-        out.states.push(StateParts { presence, change, level, parts: derived.parts });
+        // A cold build has the only reference: the scene then takes the mesh itself.
+        let parts = Arc::try_unwrap(derived).map_or_else(|kept| kept.parts.clone(), |derived| derived.parts);
+        out.states.push(StateParts { presence, change, level, parts });
     }
     out
 }

@@ -21,6 +21,11 @@ pub enum PipelineError {
     /// Mistakes in recipes or rules; the texts are in the run's [`crate::source::SourceMap`].
     #[error("the recipe or its rules have errors")]
     Diagnostics(Diagnostics),
+    /// Rules that met a limit on so many features that a build for the next one was given up.
+    #[error("rules do not end")]
+    Endless(Diagnostics),
+    #[error("it is no longer wanted")]
+    Stopped,
     #[error(transparent)]
     Access(#[from] AccessError),
     #[error(transparent)]

@@ -87,12 +87,36 @@ impl Lot {
         let stand = if level && has_flat_face(leaves, self.base) { &draped } else { &self.stand };
         let nothing = Polygon::default();
         let mut parts = parts(leaves, self.base, stand, self.polygons.first().unwrap_or(&nothing));
+        self.settle(&mut parts, stand, terrain);
+        parts
+    }
+}
+
+impl Lot {
+    /// The same leaf by leaf, without a foundation.
+    pub fn parts_by_leaf(&self, leaves: &[Leaf], terrain: &Terrain) -> Vec<Parts> {
+        let draped = Stand::Draped { priority: FOOTPRINT, surface: Surface::Drape, lift: 0.0 };
+        let level = matches!(self.stand, Stand::Level { .. });
+        let stand = match &self.stand {
+            _ if level && has_flat_face(leaves, self.base) => draped,
+            Stand::Level { .. } => Stand::Level { skirt: 0.0 },
+            other => other.clone(),
+        };
+        let one = |leaf| {
+            let mut parts = parts(std::slice::from_ref(leaf), self.base, &stand, &Polygon::default());
+            self.settle(&mut parts, &stand, terrain);
+            parts
+        };
+        leaves.iter().map(one).collect()
+    }
+
+    /// Lets what stands among draped faces follow the ground corner by corner.
+    fn settle(&self, parts: &mut Parts, stand: &Stand, terrain: &Terrain) {
         if matches!(stand, Stand::Draped { .. }) {
             for p in &mut parts.solid.positions {
                 p.y += terrain.height(DVec2::new(p.x, -p.z)).unwrap_or(self.base) - self.base;
             }
         }
-        parts
     }
 }
 

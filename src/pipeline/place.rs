@@ -1,20 +1,30 @@
-//! Map and elevation of one scene. In: the recipe's scene block. Out: a [`Place`]: local frame, features, terrain, area.
+//! Map and elevation of one scene. In: the recipe's scene block. Out: a [`Site`]: local frame, features, terrain, area,
+//! and the lots of the features.
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
+use std::sync::{Arc, OnceLock};
 
 use glam::DVec2;
 
 use super::error::PipelineError;
+use super::lot::{Lot, Relief, relief};
+use super::memory::Memory;
+use super::memory::files::Content;
 use super::progress::Progress;
 use super::recipe::Recipe;
+use super::streets::Streets;
 use crate::geodata::elevation;
-use crate::geodata::feature::Feature;
+use crate::geodata::feature::{Feature, Outline};
+use crate::geodata::features::ribbon::{Cap, caps};
 use crate::geodata::greenery::{Greenery, greenery};
 use crate::geodata::ledger::Ledger;
 use crate::geodata::map::{Area, LonLatBox, extent, extract, read_map};
 use crate::geodata::projection::LocalFrame;
+use crate::geodata::tags;
 use crate::geodata::terrain::{Terrain, Voids};
 use crate::geometry::{Polygon, Ring};
+use crate::interpreter::host::Place as OnEarth;
 use crate::source::AccessError;
 use crate::spec::render_spec::{AreaSpec, FileRef, SceneSpec};
 
@@ -26,12 +36,128 @@ pub struct Place {
     pub features: Vec<Feature>,
     /// Only where the recipe asks for vegetation.
     pub greenery: Option<Greenery>,
-    pub terrain: Terrain,
+    pub terrain: Arc<Terrain>,
     pub ledger: Ledger,
 }
 
+/// A place with what follows from it alone.
+pub struct Site {
+    pub place: Place,
+    /// Of every feature's ribbon; only roads' are used.
+    ends: Vec<[Cap; 2]>,
+    /// Relief under all parts of one building together, by its id: they share one base.
+    wholes: BTreeMap<Arc<str>, Relief>,
+    /// Of every feature, once it was asked for.
+    lots: Vec<OnceLock<Result<Arc<Lot>, String>>>,
+    streets: OnceLock<Streets>,
+    pub on_earth: Arc<dyn OnEarth>,
+}
+
+/// A site and what it was made from.
+pub(super) struct KeptSite {
+    from: SiteKey,
+    site: Arc<Site>,
+}
+
+/// Everything of a recipe that a place depends on.
+#[derive(PartialEq)]
+struct SiteKey {
+    maps: Vec<(PathBuf, Content)>,
+    elevations: Vec<(PathBuf, Content)>,
+    area: Option<AreaSpec>,
+    vegetation: bool,
+}
+
+/// The scene's frame as rules see it.
+#[derive(Debug)]
+struct SceneFrame(LocalFrame);
+
+impl OnEarth for SceneFrame {
+    fn lon_lat(&self, x: f64, z: f64) -> Option<(f64, f64)> {
+        Some(self.0.inverse(DVec2::new(x, -z)))
+    }
+}
+
+impl Site {
+    fn new(place: Place) -> Site {
+        Site {
+            ends: road_ends(&place.features),
+            wholes: wholes(&place.features, &place.terrain),
+            lots: place.features.iter().map(|_| OnceLock::new()).collect(),
+            streets: OnceLock::new(),
+            on_earth: Arc::new(SceneFrame(place.frame)),
+            place,
+        }
+    }
+
+    /// The lot of the feature with this number, or why it has none.
+    pub fn lot(&self, number: usize) -> Result<Arc<Lot>, String> {
+        let feature = &self.place.features[number];
+        let whole = || self.wholes.get(feature.tags.get(tags::OUTLINE_KEY)?).copied();
+        let lot = || Lot::new(feature, self.ends[number], whole(), &self.place.terrain).map(Arc::new);
+        self.lots[number].get_or_init(lot).clone()
+    }
+
+    pub fn streets(&self) -> &Streets {
+        self.streets.get_or_init(|| Streets::new(&self.place.features))
+    }
+}
+
+/// The site of a scene; that of the build before where nothing of it changed.
+pub(super) fn site(
+    recipe: &Recipe,
+    scene: &SceneSpec,
+    memory: &mut Memory,
+    progress: &dyn Progress,
+) -> Result<Arc<Site>, PipelineError> {
+    if !memory.keeps {
+        return Ok(Arc::new(Site::new(place(recipe, scene, progress)?)));
+    }
+    let mut contents = |files: &[FileRef]| -> Result<Vec<(PathBuf, Content)>, PipelineError> {
+        let content = |file: &FileRef| {
+            let path = file.resolve(&recipe.access)?;
+            Ok((path.clone(), memory.files.content(&path)))
+        };
+        files.iter().map(content).collect()
+    };
+    let (maps, elevations) = (contents(&scene.maps)?, contents(&scene.elevations)?);
+    let from = SiteKey { maps, elevations, area: scene.area.clone(), vegetation: recipe.spec.wants_vegetation() };
+    if let Some(kept) = memory.site.as_ref().filter(|kept| kept.from == from) {
+        return Ok(kept.site.clone());
+    }
+    memory.log_mut().place = true;
+    let site = Arc::new(Site::new(place(recipe, scene, progress)?));
+    memory.site = Some(KeptSite { from, site: site.clone() });
+    Ok(site)
+}
+
+/// The relief under all parts of each building that has parts.
+fn wholes(features: &[Feature], terrain: &Terrain) -> BTreeMap<Arc<str>, Relief> {
+    let mut wholes: BTreeMap<Arc<str>, Relief> = BTreeMap::new();
+    for feature in features {
+        let (Some(whole), Outline::Area(polygon)) = (feature.tags.get(tags::OUTLINE_KEY), &feature.outline) else {
+            continue;
+        };
+        if let Some((least, greatest)) = relief(std::slice::from_ref(polygon), terrain) {
+            let known = wholes.entry(whole.clone()).or_insert((least, greatest));
+            *known = (known.0.min(least), known.1.max(greatest));
+        }
+    }
+    wholes
+}
+
+/// The ends of every feature's ribbon.
+fn road_ends(features: &[Feature]) -> Vec<[Cap; 2]> {
+    let line = |f: &Feature| match &f.outline {
+        Outline::Line(line) => line.clone(),
+        Outline::Area(_) => Vec::new(),
+    };
+    let lines: Vec<Vec<DVec2>> = features.iter().map(line).collect();
+    caps(&lines.iter().map(Vec::as_slice).collect::<Vec<_>>())
+}
+
 /// Reads and projects the inputs of a scene.
-pub fn place(recipe: &Recipe, scene: &SceneSpec, progress: &dyn Progress) -> Result<Place, PipelineError> {
+fn place(recipe: &Recipe, scene: &SceneSpec, progress: &dyn Progress) -> Result<Place, PipelineError> {
     let resolve = |files: &[FileRef]| -> Result<Vec<PathBuf>, PipelineError> {
         Ok(files.iter().map(|f| f.resolve(&recipe.access)).collect::<Result<_, _>>()?)
     };
@@ -61,7 +187,7 @@ pub fn place(recipe: &Recipe, scene: &SceneSpec, progress: &dyn Progress) -> Res
     progress.end(&format!("{} features", features.len()));
 
     progress.begin("elevation", None);
-    let terrain = terrain(&resolve(&scene.elevations)?, frame, &ring, &mut ledger)?;
+    let terrain = Arc::new(terrain(&resolve(&scene.elevations)?, frame, &ring, &mut ledger)?);
     progress.end(&format!("{} files", scene.elevations.len()));
     Ok(Place { frame, area: ring, features, greenery, terrain, ledger })
 }

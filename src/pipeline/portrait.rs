@@ -138,7 +138,7 @@ fn add(scene: &mut Scene, color: [f64; 3], mut mesh: TriMesh) {
     let instance = scene.objects.len() as u32 + 1;
     let (feature, change, level) = (None, 0, 0);
     let (class, presence) = (SceneClass::Terrain, Presence::Both);
-    scene.objects.push(SceneObject { feature, instance, class, presence, change, level, mesh });
+    scene.objects.push(SceneObject { feature, instance, class, presence, change, level, mesh: mesh.into() });
 }
 
 /// Flat drawing that faces the camera.

@@ -1,39 +1,85 @@
 //! Features → start shapes. In: a scene's features with their rules and changes. Out: per feature a [`Prepared`] lot
 //! with a start shape for every state it has, and what was assumed for it.
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use glam::DVec2;
+use rayon::prelude::*;
 
-use super::lot::{Lot, Relief, relief};
-use super::place::Place;
+use super::lot::Lot;
+use super::memory::Memory;
+use super::place::Site;
 use super::recipe::Recipe;
-use super::streets::Streets;
 use crate::cga::program::Program;
-use crate::geodata::feature::{Feature, Outline};
-use crate::geodata::features::ribbon::{Cap, caps};
+use crate::geodata::feature::{Feature, FeatureClass, FeatureId};
 use crate::geodata::ledger::{Ledger, Outcome};
-use crate::geodata::projection::LocalFrame;
 use crate::geodata::tags::{self, Defaults, TagValue};
-use crate::geodata::terrain::Terrain;
-use crate::interpreter::host::{EdgeAttribute, EdgeValues, Place as OnEarth};
+use crate::interpreter::host::{EdgeAttribute, EdgeValues};
 use crate::interpreter::seed::Seed;
 use crate::interpreter::tree::Scalar;
 use crate::interpreter::{HostData, StartShape};
-use crate::plan::change::Changed;
+use crate::plan::change::{ChangeRecord, Changed, draw_changes};
 use crate::scene::Presence;
-use crate::spec::render_spec::{AttributeValue, DrawnValue, LevelEffect, RuleAssignment, SceneSpec, ValueSpec};
+use crate::spec::render_spec::{
+    AttributeValue, ChangeSpec, DrawnValue, LevelEffect, MissingTag, RuleAssignment, SceneSpec, ValueSpec,
+};
 
 /// A feature before its derivation.
-pub struct Prepared<'a> {
+pub struct Prepared {
     /// `Ok`, or why there is nothing to derive.
     pub outcome: Outcome,
-    pub lot: Option<Lot>,
+    pub lot: Option<Arc<Lot>>,
     /// None without a lot; one, or one before a change and one after it.
-    pub states: Vec<(State, &'a Program, StartShape)>,
+    pub states: Vec<PreparedState>,
+    /// Assumptions only.
+    ledger: Ledger,
+}
+
+/// A state of a feature before its derivation.
+pub struct PreparedState {
+    pub state: State,
+    /// Key of the program.
+    pub program: Arc<str>,
+    pub start: Arc<StartShape>,
+}
+
+/// What a recipe makes of a feature.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Assignment {
+    pub feature: FeatureId,
+    pub class: FeatureClass,
+    /// Index into the scene's rules.
+    pub rule: Option<usize>,
+    pub change: Option<Changed>,
+}
+
+/// All features of a scene.
+pub struct PreparedScene {
+    /// In the order of the features.
+    pub features: Vec<Prepared>,
+    /// Likewise.
+    pub assignments: Vec<Assignment>,
     /// Assumptions only.
     pub ledger: Ledger,
+    /// Changes as they were drawn.
+    pub drawn: Vec<ChangeRecord>,
+}
+
+/// The prepared features and what they were made from.
+pub(super) struct KeptPreparation {
+    from: PreparationKey,
+    site: Arc<Site>,
+    prepared: Arc<PreparedScene>,
+}
+
+/// Everything that start shapes depend on besides the site.
+#[derive(PartialEq)]
+struct PreparationKey {
+    seed: u64,
+    rules: Vec<RuleAssignment>,
+    missing: Vec<MissingTag>,
+    changes: Vec<ChangeSpec>,
+    /// Programs that ask for the streets along edges.
+    curious: Vec<Arc<str>>,
 }
 
 /// A state of a feature.
@@ -48,62 +94,77 @@ pub struct State {
     pub counts: bool,
 }
 
-/// Everything the start shape of a feature depends on.
-pub struct Preparation<'a> {
-    recipe: &'a Recipe,
-    scene: &'a SceneSpec,
-    place: &'a Place,
-    defaults: Defaults,
-    seed: Seed,
-    /// Relief under all parts of one building together, by its id: they share one base.
-    wholes: BTreeMap<Arc<str>, Relief>,
-    /// Where some rules ask for streets.
-    streets: Option<Streets>,
-    on_earth: Arc<dyn OnEarth>,
+/// Start shapes of all features of a scene; those of the build before where nothing of them changed.
+pub(super) fn prepare(recipe: &Recipe, scene: &SceneSpec, site: &Arc<Site>, memory: &mut Memory) -> Arc<PreparedScene> {
+    let curious = recipe.programs.keys().filter(|key| recipe.programs.with_key(key).needs().edges);
+    let from = PreparationKey {
+        seed: scene.seed,
+        rules: scene.rules.clone(),
+        missing: scene.missing.clone(),
+        changes: recipe.spec.changes.clone(),
+        curious: curious.cloned().collect(),
+    };
+    if let Some(kept) = memory.prepared.as_ref().filter(|kept| Arc::ptr_eq(&kept.site, site) && kept.from == from) {
+        return kept.prepared.clone();
+    }
+    let prepared = Arc::new(Preparation::new(recipe, scene, site).all());
+    if memory.keeps {
+        memory.prepared = Some(KeptPreparation { from, site: site.clone(), prepared: prepared.clone() });
+    }
+    prepared
 }
 
-/// The scene's frame as rules see it.
-#[derive(Debug)]
-struct SceneFrame(LocalFrame);
-
-impl OnEarth for SceneFrame {
-    fn lon_lat(&self, x: f64, z: f64) -> Option<(f64, f64)> {
-        Some(self.0.inverse(DVec2::new(x, -z)))
-    }
+/// Everything the start shape of a feature depends on.
+struct Preparation<'a> {
+    recipe: &'a Recipe,
+    scene: &'a SceneSpec,
+    site: &'a Site,
+    defaults: Defaults,
+    seed: Seed,
 }
 
 impl<'a> Preparation<'a> {
-    pub fn new(recipe: &'a Recipe, scene: &'a SceneSpec, place: &'a Place) -> Self {
-        let asks = recipe.programs.all().any(|program| program.needs().edges);
-        Preparation {
-            recipe,
-            scene,
-            place,
-            defaults: Defaults::default(),
-            seed: Seed::root(scene.seed).named("feature"),
-            wholes: wholes(&place.features, &place.terrain),
-            streets: asks.then(|| Streets::new(&place.features)),
-            on_earth: Arc::new(SceneFrame(place.frame)),
+    fn new(recipe: &'a Recipe, scene: &'a SceneSpec, site: &'a Site) -> Self {
+        let seed = Seed::root(scene.seed).named("feature");
+        Preparation { recipe, scene, site, defaults: Defaults::default(), seed }
+    }
+
+    fn all(&self) -> PreparedScene {
+        let features = &self.site.place.features;
+        let assigned = assign(&self.scene.rules, features);
+        let with_rules: Vec<usize> = (0..features.len()).filter(|&i| assigned[i].is_some()).collect();
+        let candidate = |&i: &usize| (features[i].id, features[i].class, &features[i].tags);
+        let candidates: Vec<_> = with_rules.iter().map(candidate).collect();
+        let (changed, drawn) = draw_changes(&self.recipe.spec, self.scene, &candidates);
+        let mut touched = vec![None; features.len()];
+        for (i, change) in with_rules.into_iter().zip(changed) {
+            touched[i] = change;
         }
+        let numbers = (0..features.len()).into_par_iter();
+        let mut prepared: Vec<Prepared> =
+            numbers.map(|number| self.feature(number, assigned[number], touched[number])).collect();
+        let mut ledger = Ledger::default();
+        for feature in &mut prepared {
+            ledger.merge(std::mem::take(&mut feature.ledger));
+        }
+        let of = |(number, feature): (usize, &Feature)| Assignment {
+            feature: feature.id,
+            class: feature.class,
+            rule: assigned[number],
+            change: touched[number],
+        };
+        let assignments = features.iter().enumerate().map(of).collect();
+        PreparedScene { features: prepared, assignments, ledger, drawn }
     }
 
-    fn whole(&self, feature: &Feature) -> Option<Relief> {
-        self.wholes.get(feature.tags.get(tags::OUTLINE_KEY)?).copied()
-    }
-
-    pub fn feature(
-        &self,
-        feature: &Feature,
-        ends: [Cap; 2],
-        rule: Option<usize>,
-        touched: Option<Changed>,
-    ) -> Prepared<'a> {
+    fn feature(&self, number: usize, rule: Option<usize>, touched: Option<Changed>) -> Prepared {
+        let feature = &self.site.place.features[number];
         let mut out = Prepared { outcome: Outcome::Ok, lot: None, states: Vec::new(), ledger: Ledger::default() };
         let Some(rule) = rule else {
             out.outcome = Outcome::Skipped("no rule of the recipe is for it".to_owned());
             return out;
         };
-        let lot = match Lot::new(feature, ends, self.whole(feature), &self.place.terrain) {
+        let lot = match self.site.lot(number) {
             Ok(lot) => lot,
             Err(why) => {
                 out.outcome = Outcome::Skipped(why);
@@ -135,11 +196,11 @@ impl<'a> Preparation<'a> {
         lot: &Lot,
         rule: &RuleAssignment,
         (presence, change, level): (Presence, u16, u8),
-        out: &mut Prepared<'a>,
+        out: &mut Prepared,
     ) {
         let counts = presence != Presence::AfterOnly || out.states.is_empty();
         let attributes = self.attributes(feature, rule, if counts { Some(&mut out.ledger) } else { None });
-        let program = self.recipe.programs.get(&rule.file);
+        let (key, program) = self.recipe.programs.entry(&rule.file);
         let start = StartShape {
             mesh: lot.mesh.clone(),
             start_rule: rule.start.clone(),
@@ -148,17 +209,18 @@ impl<'a> Preparation<'a> {
             name: feature.id.to_string().into(),
             host: self.host(lot, program),
         };
-        out.states.push((State { presence, change, level, counts }, program, start));
+        let state = State { presence, change, level, counts };
+        out.states.push(PreparedState { state, program: key.clone(), start: start.into() });
     }
 
     fn host(&self, lot: &Lot, program: &Program) -> HostData {
-        let streets = self.streets.as_ref().filter(|_| program.needs().edges);
+        let streets = program.needs().edges.then(|| self.site.streets());
         let mut known = streets.map_or_else(HostData::default, |streets| streets.of_edges(&lot.mesh));
         if program.needs().edges && !lot.map_edges.is_empty() {
             let values = EdgeValues::Floats(lot.map_edges.iter().map(|&number| number as f64).collect());
             known.edge_attributes.push(EdgeAttribute { name: "mapEdge".into(), values });
         }
-        HostData { place: Some(self.on_earth.clone()), ..known }
+        HostData { place: Some(self.site.on_earth.clone()), ..known }
     }
 
     /// The attributes of a start shape: tags, defaults of the recipe, then the assignment's own values.
@@ -239,31 +301,6 @@ fn drawn_text(value: &DrawnValue) -> String {
 }
 
 /// Index of the first rule that takes each feature.
-pub fn assign(rules: &[RuleAssignment], features: &[Feature]) -> Vec<Option<usize>> {
+fn assign(rules: &[RuleAssignment], features: &[Feature]) -> Vec<Option<usize>> {
     features.iter().map(|f| rules.iter().position(|r| r.filter.matches(f.class, &f.tags, f.id))).collect()
-}
-
-/// The relief under all parts of each building that has parts.
-fn wholes(features: &[Feature], terrain: &Terrain) -> BTreeMap<Arc<str>, Relief> {
-    let mut wholes: BTreeMap<Arc<str>, Relief> = BTreeMap::new();
-    for feature in features {
-        let (Some(whole), Outline::Area(polygon)) = (feature.tags.get(tags::OUTLINE_KEY), &feature.outline) else {
-            continue;
-        };
-        if let Some((least, greatest)) = relief(std::slice::from_ref(polygon), terrain) {
-            let known = wholes.entry(whole.clone()).or_insert((least, greatest));
-            *known = (known.0.min(least), known.1.max(greatest));
-        }
-    }
-    wholes
-}
-
-/// The ends of every feature's ribbon; only roads' are used.
-pub fn road_ends(features: &[Feature]) -> Vec<[Cap; 2]> {
-    let line = |f: &Feature| match &f.outline {
-        Outline::Line(line) => line.clone(),
-        Outline::Area(_) => Vec::new(),
-    };
-    let lines: Vec<Vec<DVec2>> = features.iter().map(line).collect();
-    caps(&lines.iter().map(Vec::as_slice).collect::<Vec<_>>())
 }

@@ -1,5 +1,8 @@
 //! How the pipeline tells what it is doing. In: phases and steps. Out: whatever the host shows.
 
+#[cfg(doc)]
+use super::error::PipelineError;
+
 /// Hears of phases that take long. Calls may come from any thread.
 pub trait Progress: Sync {
     /// A phase begins; `total` steps are expected where that is known.
@@ -10,6 +13,10 @@ pub trait Progress: Sync {
     fn end(&self, summary: &str);
     /// Something goes on, but not as one would expect.
     fn warn(&self, message: &str);
+    /// Whether what is made is no longer wanted; work then ends early with [`PipelineError::Stopped`].
+    fn is_stopped(&self) -> bool {
+        false
+    }
 }
 
 /// Shows nothing.

@@ -3,6 +3,7 @@
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use super::build::BuiltScene;
 use super::error::PipelineError;
@@ -12,7 +13,7 @@ use crate::dataset::manifest::InputFile;
 use crate::diagnostics::Diagnostics;
 use crate::interpreter::FileAssets;
 use crate::output::OutputError;
-use crate::source::{Access, AccessError, SourceMap};
+use crate::source::{Access, AccessError, Looked, Overlay, SourceMap};
 use crate::spec;
 use crate::spec::render_spec::RenderSpec;
 
@@ -23,16 +24,19 @@ pub struct RecipeOptions {
     pub arguments: Vec<(String, String)>,
     /// Folder trees that may be read besides the recipe's own.
     pub allow: Vec<PathBuf>,
+    /// Where every path that is looked for is written down.
+    pub looked: Option<Looked>,
 }
 
 /// A checked recipe with everything needed to build its scenes.
+#[derive(Clone)]
 pub struct Recipe {
     pub path: PathBuf,
     pub spec: RenderSpec,
     pub access: Access,
     /// What rules may read: also the projects of rule files that the command line names.
     readable: Access,
-    pub programs: Programs,
+    pub programs: Arc<Programs>,
     pub arguments: Vec<(String, String)>,
     /// Warnings of the recipe and its rules.
     pub warnings: Diagnostics,
@@ -40,19 +44,35 @@ pub struct Recipe {
 
 /// Reads and checks a recipe and every rule file that it names.
 pub fn load_recipe(path: &Path, options: &RecipeOptions, sources: &mut SourceMap) -> Result<Recipe, PipelineError> {
+    load_recipe_over(path, options, &Overlay::default(), sources)
+}
+
+/// As [`load_recipe`], with texts in the place of files.
+pub fn load_recipe_over(
+    path: &Path,
+    options: &RecipeOptions,
+    overlay: &Overlay,
+    sources: &mut SourceMap,
+) -> Result<Recipe, PipelineError> {
+    if let Some(looked) = &options.looked {
+        looked.note(path);
+    }
     let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    if !path.is_file() {
+    if !path.is_file() && overlay.get(path).is_none() {
         let source = std::io::Error::new(std::io::ErrorKind::NotFound, "no such file");
         return Err(AccessError::Io { path: path.display().to_string(), source }.into());
     }
-    let mut access = Access::new(folder)?;
+    let mut access = Access::new(folder)?.with_overlay(overlay);
+    if let Some(looked) = &options.looked {
+        access = access.noting(looked.clone());
+    }
     for tree in &options.allow {
         access.allow(tree)?;
     }
     let (spec, mut diagnostics) = spec::load(&path.display().to_string(), &access, sources, &options.arguments);
     let Some(spec) = spec else { return Err(PipelineError::Diagnostics(diagnostics.sorted())) };
     rules::check_files(&spec, &access, &mut diagnostics);
-    let programs = rules::compile(&spec, &access, sources, &mut diagnostics);
+    let programs = Arc::new(rules::compile(&spec, &access, sources, &mut diagnostics));
     let mut readable = access.clone();
     for tree in programs.trees() {
         readable.allow(tree)?;
@@ -72,6 +92,11 @@ impl Recipe {
     /// Text that must accompany what is made of this recipe.
     pub fn attribution(&self) -> &'static str {
         ATTRIBUTION
+    }
+
+    /// What rules may read.
+    pub fn assets_access(&self) -> &Access {
+        &self.readable
     }
 
     /// Files that rules may read.

@@ -3,10 +3,12 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use rayon::prelude::*;
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 
 use super::build::BuiltScene;
+use super::memory::files;
 use super::recipe::Recipe;
 use crate::dataset::manifest::{AcquisitionRecord, InputFile, ReportRecord};
 use crate::dataset::writer::sha256;
@@ -15,7 +17,7 @@ use crate::interpreter::reports::Report;
 use crate::plan::demand::{Projection, ViewDemand};
 use crate::plan::effects::{Ambient, Bands, BitDepth, Look, Sensor};
 use crate::plan::sun::to_angles;
-use crate::scene::Scene;
+use crate::scene::{Scene, TriMesh};
 use crate::source::{Access, SourceMap};
 use crate::spec::render_spec::{FileRef, Origin};
 
@@ -74,9 +76,8 @@ fn hash_file(role: &'static str, name: String, path: &Path, access: &Access) -> 
 
 /// Length and SHA-256 of a file of any length.
 pub fn file_sha256(path: &Path) -> std::io::Result<(u64, String)> {
-    let mut hash = Sha256::new();
-    let bytes = std::io::copy(&mut std::fs::File::open(path)?, &mut Hashing(&mut hash))?;
-    Ok((bytes, hash.finalize().iter().map(|b| format!("{b:02x}")).collect()))
+    let (bytes, hash) = files::hash_file(path)?;
+    Ok((bytes, hash.iter().map(|b| format!("{b:02x}")).collect()))
 }
 
 /// Where an existing file lies below the recipe's folder, with `/`; `None` for what lies elsewhere.
@@ -86,29 +87,17 @@ pub fn below_root(path: &Path, access: &Access) -> Option<String> {
     Some(parts.collect::<Vec<_>>().join("/"))
 }
 
-/// Lets a hash be written to.
-struct Hashing<'a>(&'a mut Sha256);
-
-impl std::io::Write for Hashing<'_> {
-    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
-        self.0.update(bytes);
-        Ok(bytes.len())
-    }
-
-    fn flush(&mut self) -> std::io::Result<()> {
-        Ok(())
-    }
-}
-
 /// Manifests name files without folders, so that they do not depend on where a run took place.
 fn base_name(path: &str) -> String {
     Path::new(path).file_name().map_or_else(|| path.to_owned(), |n| n.to_string_lossy().into_owned())
 }
 
-/// Hash of all geometry, materials and labels of a scene.
+/// Hash of all geometry, materials and labels of a scene: of the labels and the hash of each mesh, in order, then of the
+/// materials.
 pub fn geometry_hash(scene: &Scene) -> String {
+    let digests: Vec<[u8; 32]> = scene.objects.par_iter().map(|object| object.mesh.digest(mesh_hash)).collect();
     let mut hash = Sha256::new();
-    for object in &scene.objects {
+    for (object, digest) in scene.objects.iter().zip(digests) {
         let labels = format!(
             "{:?} {} {} {:?} {} {}",
             object.feature.map(|f| f.to_string()),
@@ -119,25 +108,30 @@ pub fn geometry_hash(scene: &Scene) -> String {
             object.level
         );
         hash.update(labels.as_bytes());
-        let mesh = &object.mesh;
-        for p in &mesh.positions {
-            hash.update(bytemuck::bytes_of(p));
-        }
-        hash.update(bytemuck::cast_slice(&mesh.normals));
-        hash.update(bytemuck::cast_slice(&mesh.uvs));
-        for (set, uvs) in &mesh.uv_sets {
-            hash.update([*set]);
-            hash.update(bytemuck::cast_slice(uvs));
-        }
-        hash.update(bytemuck::cast_slice(&mesh.triangles));
-        for group in &mesh.groups {
-            hash.update(format!("{group:?}").as_bytes());
-        }
+        hash.update(digest);
     }
     for material in &scene.materials {
         hash.update(format!("{material:?}").as_bytes());
     }
     hash.finalize().iter().map(|b| format!("{b:02x}")).collect()
+}
+
+fn mesh_hash(mesh: &TriMesh) -> [u8; 32] {
+    let mut hash = Sha256::new();
+    for p in &mesh.positions {
+        hash.update(bytemuck::bytes_of(p));
+    }
+    hash.update(bytemuck::cast_slice(&mesh.normals));
+    hash.update(bytemuck::cast_slice(&mesh.uvs));
+    for (set, uvs) in &mesh.uv_sets {
+        hash.update([*set]);
+        hash.update(bytemuck::cast_slice(uvs));
+    }
+    hash.update(bytemuck::cast_slice(&mesh.triangles));
+    for group in &mesh.groups {
+        hash.update(format!("{group:?}").as_bytes());
+    }
+    hash.finalize().into()
 }
 
 /// Camera, sun and effects of one acquisition for the manifest.

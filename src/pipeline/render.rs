@@ -4,6 +4,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::sync_channel;
+use std::time::{Duration, Instant};
 
 use super::backend::{Backend, BackendChoice, Drawn};
 use super::budget::{Settled, settle};
@@ -128,8 +129,13 @@ pub fn render_built(
             budgets.extend(settled.record);
             backend.begin(&views, progress);
             backend.upload(&scene.scene, &views.plan)?;
-            records.extend(render_views(&mut backend, dataset, scene, &views, &folder, progress)?);
-            progress.end(&format!("{} views", views.drawn.len()));
+            let (drawn, idle) = render_views(&mut backend, dataset, scene, &views, &folder, progress)?;
+            records.extend(drawn);
+            progress.end(&format!(
+                "{} views, {:.0} % of the time waiting for the encoder",
+                views.drawn.len(),
+                100.0 * idle
+            ));
         }
         summary.views += records.len();
         summary.images += records.iter().map(|r| r.images.len()).sum::<usize>();
@@ -184,7 +190,8 @@ fn write_reports(built: &[BuiltScene], folder: &Path) -> Result<Vec<WrittenFile>
     Ok(vec![csv, write_file(folder, Path::new("reports.json"), &reports::to_json(&scenes))?])
 }
 
-/// Draws views one after another; a second thread encodes and writes the images of the one before.
+/// Draws views one after another; a second thread encodes and writes the images of the one before. Also gives the share
+/// of the time in which nothing was drawn because that thread was not done.
 fn render_views(
     backend: &mut Backend,
     dataset: &DatasetSpec,
@@ -192,7 +199,7 @@ fn render_views(
     views: &SceneViews,
     folder: &Path,
     progress: &dyn Progress,
-) -> Result<Vec<ViewRecord>, PipelineError> {
+) -> Result<(Vec<ViewRecord>, f64), PipelineError> {
     std::thread::scope(|scope| {
         let (send, receive) = sync_channel::<(usize, Drawn)>(1);
         let counts_views = backend.counts_views();
@@ -210,11 +217,19 @@ fn render_views(
             }
             Ok(records)
         });
-        let drawn = draw(backend, views, progress, &mut |number, drawn| send.send((number, drawn)).is_ok());
+        let (start, mut waited) = (Instant::now(), Duration::ZERO);
+        let drawn = draw(backend, views, progress, &mut |number, drawn| {
+            let ready = Instant::now();
+            let taken = send.send((number, drawn)).is_ok();
+            waited += ready.elapsed();
+            taken
+        });
         drop(send);
+        let last = Instant::now();
         let written = writer.join().expect("the writer does not panic");
+        waited += last.elapsed();
         drawn?;
-        Ok(written?)
+        Ok((written?, waited.as_secs_f64() / start.elapsed().as_secs_f64().max(1e-9)))
     })
 }
 

@@ -3,30 +3,72 @@
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
+use std::sync::{Arc, OnceLock};
 
+use sha2::{Digest, Sha256};
+
+use super::memory::programs::Facts;
 use super::shipped;
 use crate::cga;
 use crate::cga::program::Program;
 use crate::diagnostics::{Diagnostic, Diagnostics, suggest};
-use crate::source::{Access, AccessError, Project, SourceMap};
+use crate::source::{Access, AccessError, Project, SourceFile, SourceMap};
 use crate::spec::render_spec::{AttributeSpec, FileRef, LevelEffect, Origin, RenderSpec, RuleAssignment};
 
 /// Compiled rule files by [`key`].
 #[derive(Default)]
 pub struct Programs {
-    programs: BTreeMap<String, Program>,
+    programs: BTreeMap<Arc<str>, Compiled>,
     /// Trees of rule files that the command line names: their rules may read there.
     trees: Vec<PathBuf>,
 }
 
+struct Compiled {
+    program: Program,
+    /// Hash of its texts and of their places in the source map.
+    identity: [u8; 32],
+    /// Made when a build first keeps something.
+    facts: OnceLock<Arc<Facts>>,
+}
+
 impl Programs {
     pub fn all(&self) -> impl Iterator<Item = &Program> {
-        self.programs.values()
+        self.programs.values().map(|compiled| &compiled.program)
+    }
+
+    /// All keys, sorted.
+    pub fn keys(&self) -> impl Iterator<Item = &Arc<str>> {
+        self.programs.keys()
+    }
+
+    /// Key and program of a reference.
+    pub fn entry(&self, file: &FileRef) -> (&Arc<str>, &Program) {
+        let found = self.programs.get_key_value(&*key(file));
+        let (key, compiled) = found.expect("every rule file of a checked recipe was compiled");
+        (key, &compiled.program)
     }
 
     /// The program of a reference.
     pub fn get(&self, file: &FileRef) -> &Program {
-        self.programs.get(&key(file)).expect("every rule file of a checked recipe was compiled")
+        self.entry(file).1
+    }
+
+    /// The program with this key, if the recipe has it.
+    pub fn find(&self, key: &str) -> Option<&Program> {
+        self.programs.get(key).map(|compiled| &compiled.program)
+    }
+
+    /// The program with this key of the same recipe.
+    pub fn with_key(&self, key: &str) -> &Program {
+        self.find(key).expect("keys come from the same recipe")
+    }
+
+    /// What is known of each program, by key.
+    pub(super) fn facts(&self) -> impl Iterator<Item = (Arc<str>, Arc<Facts>)> {
+        self.programs.iter().map(|(key, Compiled { program, identity, facts })| {
+            let facts = facts.get_or_init(|| Arc::new(Facts::new(program, *identity)));
+            (key.clone(), facts.clone())
+        })
     }
 
     /// Folder trees besides the recipe's own that rules may read.
@@ -85,15 +127,30 @@ pub fn compile(spec: &RenderSpec, access: &Access, sources: &mut SourceMap, diag
         let key = key(&assignment.file);
         if !tried.contains(&key) {
             tried.push(key.clone());
+            let before = sources.files().len();
             if let Some(program) = compile_file(&assignment.file, access, sources, &mut compiled.trees, diagnostics) {
-                compiled.programs.insert(key.clone(), program);
+                let identity = identity(&sources.files()[before..]);
+                let own = Compiled { program, identity, facts: OnceLock::new() };
+                compiled.programs.insert(key.as_str().into(), own);
             }
         }
-        if let Some(program) = compiled.programs.get(&key) {
+        if let Some(Compiled { program, .. }) = compiled.programs.get(key.as_str()) {
             check_assignment(assignment, program, diagnostics);
         }
     }
     compiled
+}
+
+fn identity(files: &[SourceFile]) -> [u8; 32] {
+    let mut hash = Sha256::new();
+    for SourceFile { id, name, text } in files {
+        hash.update(id.0.to_le_bytes());
+        hash.update((name.len() as u64).to_le_bytes());
+        hash.update((text.len() as u64).to_le_bytes());
+        hash.update(name.as_bytes());
+        hash.update(text.as_bytes());
+    }
+    hash.finalize().into()
 }
 
 fn compile_file(

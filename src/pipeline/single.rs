@@ -6,7 +6,7 @@ use crate::geodata::feature::{FeatureId, ObjectKind};
 use crate::geometry::Polygon;
 use crate::interpreter::FileAssets;
 use crate::interpreter::tree::ShapeTree;
-use crate::scene::assemble::{FeatureParts, StateParts, assemble};
+use crate::scene::assemble::{FeatureParts, Kept, StateParts, assemble};
 use crate::scene::ground::GroundMesh;
 use crate::scene::parts::{Stand, parts};
 use crate::scene::{Presence, Scene, SceneClass};
@@ -18,9 +18,9 @@ pub fn single_scene(tree: &ShapeTree, access: &Access) -> Result<Scene, Pipeline
     let feature = FeatureParts {
         feature: FeatureId { kind: ObjectKind::Way, id: 1, part: 0 },
         class: SceneClass::Building,
-        states: vec![StateParts { presence: Presence::Both, change: 0, level: 0, parts }],
+        states: vec![StateParts { presence: Presence::Both, change: 0, level: 0, parts: parts.into() }],
     };
-    let mut scene = assemble(vec![feature], &GroundMesh::default());
-    textures::load(&mut scene, &FileAssets::new(access.clone()))?;
+    let mut scene = assemble(vec![feature], &GroundMesh::default().into(), &mut Kept::default());
+    textures::load(&mut scene, &FileAssets::new(access.clone()), &mut textures::Kept::default())?;
     Ok(scene)
 }

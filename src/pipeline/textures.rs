@@ -7,7 +7,7 @@
 
 use std::collections::BTreeMap;
 use std::io::Cursor;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use image::imageops::{FilterType, resize};
@@ -43,8 +43,29 @@ struct Texture {
     has_alpha: bool,
 }
 
+/// Images of the scene before, by the names in materials and by those in the scene.
+#[derive(Default)]
+pub struct Kept {
+    files: BTreeMap<Arc<str>, KeptFile>,
+    composed: BTreeMap<Arc<str>, Composed>,
+}
+
+struct KeptFile {
+    texture: Texture,
+    /// `None` for a built-in one.
+    file: Option<InputFile>,
+    path: PathBuf,
+}
+
+/// A colour texture with an opacity map, as they were, and what became of them.
+struct Composed {
+    of: [Option<Arc<RgbaImage>>; 2],
+    texture: Texture,
+}
+
 struct Loader<'a> {
     assets: &'a FileAssets,
+    kept: &'a mut Kept,
     /// By the names in materials; `None` for what is missing.
     read: BTreeMap<Arc<str>, Option<Texture>>,
     /// By the names in the scene.
@@ -54,8 +75,8 @@ struct Loader<'a> {
 
 /// Loads every texture that the scene's materials name into the scene. Files are named by their path below the run's
 /// folder, so that a scene does not depend on where that folder lies.
-pub fn load(scene: &mut Scene, assets: &FileAssets) -> Result<Loaded, PipelineError> {
-    let mut loader = Loader { assets, read: BTreeMap::new(), images: BTreeMap::new(), loaded: Loaded::default() };
+pub fn load(scene: &mut Scene, assets: &FileAssets, kept: &mut Kept) -> Result<Loaded, PipelineError> {
+    let mut loader = Loader { assets, kept, read: BTreeMap::new(), images: BTreeMap::new(), loaded: Loaded::default() };
     for material in &mut scene.materials {
         if material.colormap.is_some() || !material.maps.is_empty() {
             loader.material(Arc::make_mut(material))?;
@@ -78,7 +99,7 @@ impl Loader<'_> {
             Some(path) => self.texture(&path)?,
             None => None,
         };
-        material.colormap = color_with_opacity(color, opacity).map(|texture| self.keep(texture));
+        material.colormap = self.composed(color, opacity).map(|texture| self.keep(texture));
         for mut map in std::mem::take(&mut material.maps) {
             if let Some(texture) = self.texture(&map.path)? {
                 // The opacity map is in the colour texture; its own name is kept.
@@ -87,6 +108,28 @@ impl Loader<'_> {
             }
         }
         Ok(())
+    }
+
+    /// [`color_with_opacity`], done once for the same images.
+    fn composed(&mut self, color: Option<Texture>, opacity: Option<Texture>) -> Option<Texture> {
+        let pixels = |texture: &Option<Texture>| texture.as_ref().map(|texture| texture.pixels.clone());
+        let of = [pixels(&color), pixels(&opacity)];
+        let name =
+            |texture: &Option<Texture>| texture.as_ref().map_or_else(String::new, |texture| texture.name.to_string());
+        let key: Arc<str> = format!("{}|{}", name(&color), name(&opacity)).into();
+        let is_same = |a: &Option<Arc<RgbaImage>>, b: &Option<Arc<RgbaImage>>| match (a, b) {
+            (Some(a), Some(b)) => Arc::ptr_eq(a, b),
+            (None, None) => true,
+            _ => false,
+        };
+        if let Some(known) = self.kept.composed.get(&key)
+            && known.of.iter().zip(&of).all(|(a, b)| is_same(a, b))
+        {
+            return Some(known.texture.clone());
+        }
+        let texture = color_with_opacity(color, opacity)?;
+        self.kept.composed.insert(key, Composed { of, texture: texture.clone() });
+        Some(texture)
     }
 
     fn keep(&mut self, texture: Texture) -> Arc<str> {
@@ -98,11 +141,7 @@ impl Loader<'_> {
         if let Some(known) = self.read.get(path) {
             return Ok(known.clone());
         }
-        let texture = if path.starts_with("builtin:") {
-            builtin(path).map(|pixels| Texture { name: path.clone(), pixels: Arc::new(pixels), has_alpha: false })
-        } else {
-            self.file(path)?
-        };
+        let texture = if path.starts_with("builtin:") { self.builtin(path) } else { self.file(path)? };
         if texture.is_none() {
             self.loaded.missing.push(path.to_string());
         }
@@ -110,21 +149,36 @@ impl Loader<'_> {
         Ok(texture)
     }
 
-    fn file(&mut self, named: &str) -> Result<Option<Texture>, PipelineError> {
+    fn builtin(&mut self, path: &Arc<str>) -> Option<Texture> {
+        if let Some(known) = self.kept.files.get(path) {
+            return Some(known.texture.clone());
+        }
+        let texture = Texture { name: path.clone(), pixels: Arc::new(builtin(path)?), has_alpha: false };
+        let kept = KeptFile { texture: texture.clone(), file: None, path: PathBuf::new() };
+        self.kept.files.insert(path.clone(), kept);
+        Some(texture)
+    }
+
+    /// Reads a file, and decodes it if it has another content than before.
+    fn file(&mut self, named: &Arc<str>) -> Result<Option<Texture>, PipelineError> {
         let Ok((path, bytes)) = self.assets.texture(named) else { return Ok(None) };
         let name = below(&path, named, self.assets.access());
         let (size, hash) = (bytes.len() as u64, sha256(&bytes));
         let place = below_root(&path, self.assets.access());
-        self.loaded.files.push(InputFile {
-            role: "texture",
-            name: name.clone(),
-            path: place,
-            bytes: size,
-            sha256: hash,
-        });
-        let image = decode(&path, bytes).map_err(|source| PipelineError::Texture { path, source })?;
+        let file = InputFile { role: "texture", name: name.clone(), path: place, bytes: size, sha256: hash };
+        self.loaded.files.push(file.clone());
+        if let Some(known) = self.kept.files.get(named)
+            && known.file.as_ref() == Some(&file)
+            && known.path == path
+        {
+            return Ok(Some(known.texture.clone()));
+        }
+        let image = decode(&path, bytes).map_err(|source| PipelineError::Texture { path: path.clone(), source })?;
         let has_alpha = image.color().has_alpha();
-        Ok(Some(Texture { name: name.into(), pixels: Arc::new(image.to_rgba8()), has_alpha }))
+        let texture = Texture { name: name.into(), pixels: Arc::new(image.to_rgba8()), has_alpha };
+        let kept = KeptFile { texture: texture.clone(), file: Some(file), path };
+        self.kept.files.insert(named.clone(), kept);
+        Ok(Some(texture))
     }
 }
 

@@ -30,13 +30,18 @@ pub fn scene_views(
     built: &BuiltScene,
     wanted: &dyn Fn(&str) -> bool,
 ) -> SceneViews {
-    let ground = built.terrain.height(DVec2::ZERO).unwrap_or(built.scene.bounds.0.y);
-    let summary = SceneSummary::new(&built.scene, DVec3::new(0.0, ground, 0.0));
-    let mut drawn = views(&recipe.spec, dataset, scene, &summary);
+    let mut drawn = drawn_views(recipe, dataset, scene, built);
     drawn.retain(|view| wanted(&view.name));
     let demands: Vec<_> = drawn.iter().flat_map(|view| view.demands.iter().cloned()).collect();
     let plan = schedule(&demands, &summarize(&built.scene));
     SceneViews { drawn, plan }
+}
+
+/// Draws the views that a dataset has of a scene, without passes.
+pub fn drawn_views(recipe: &Recipe, dataset: &DatasetSpec, scene: usize, built: &BuiltScene) -> Vec<DrawnView> {
+    let ground = built.terrain.height(DVec2::ZERO).unwrap_or(built.scene.bounds.0.y);
+    let summary = SceneSummary::new(&built.scene, DVec3::new(0.0, ground, 0.0));
+    views(&recipe.spec, dataset, scene, &summary)
 }
 
 /// One dataset's views of one scene, for `mansard plan`.

@@ -68,10 +68,7 @@ fn surface(material: &Material, textures: &[(Arc<str>, Arc<image::RgbaImage>)], 
 
 fn summarize_object(object: &SceneObject, surfaces: &[Option<Surface>]) -> ObjectSummary {
     let mesh = &object.mesh;
-    let bounds = mesh
-        .positions
-        .first()
-        .map(|&first| mesh.positions.iter().fold((first, first), |(low, high), &p| (low.min(p), high.max(p))));
+    let bounds = mesh.bounds();
     let mut kinds: Vec<Surface> =
         mesh.groups.iter().filter(|g| g.count > 0).filter_map(|g| surfaces[g.material as usize]).collect();
     kinds.sort();

@@ -13,7 +13,7 @@ use super::look::{Surroundings, look};
 use super::sun::light;
 use crate::geodata::feature::FeatureId;
 use crate::interpreter::seed::Seed;
-use crate::scene::{Presence, Scene, SceneClass, TriMesh};
+use crate::scene::{Presence, Scene, SceneClass};
 use crate::spec::draw::Distribution;
 use crate::spec::render_spec::{
     AcquisitionSpec, CameraSpec, DatasetSpec, Lens, OutputSpec, PassSpec, RenderSpec, SetSpec, StateSpec, ViewSpec,
@@ -55,15 +55,10 @@ impl SceneSummary {
             presence: object.presence,
             change: object.change,
             level: object.level,
-            bounds: bounds(&object.mesh),
+            bounds: object.mesh.bounds(),
         });
         SceneSummary { bounds: scene.bounds, centre, objects: objects.collect() }
     }
-}
-
-fn bounds(mesh: &TriMesh) -> Option<(DVec3, DVec3)> {
-    let corners = mesh.positions.iter().map(|&p| (p, p));
-    corners.reduce(|(low, high), (p, _)| (low.min(p), high.max(p)))
 }
 
 /// A property of a view and the value it has, such as `camera.off_nadir`: degrees, metres or plain numbers.

@@ -1,20 +1,21 @@
 //! Parts of all features and the ground → the scene. In: [`FeatureParts`] in the order of their ids, the ground mesh
-//! with a class per triangle. Out: a [`Scene`] whose objects carry integer labels.
+//! with a class per triangle. Out: a [`Scene`] whose objects carry integer labels. Meshes of the scene before are taken
+//! over where nothing of them changed.
+
+mod ground_objects;
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use glam::{DVec2, DVec3, Vec3};
+use glam::DVec3;
 
 use super::ground::{GroundLayer, GroundMesh};
 use super::model::{Presence, Scene, SceneClass, SceneObject, TriMesh};
 use super::palette::Palette;
-use super::parts::{FlatFace, Parts, PlanUv};
-use super::texture::builtin_size;
-use super::triangles::Builder;
+use super::parts::{FlatFace, Parts};
+use super::shared_mesh::SharedMesh;
 use crate::geodata::feature::FeatureId;
-use crate::geometry::Polygon;
-use crate::interpreter::material::Material;
+use ground_objects::{KeptGround, ground_objects};
 
 /// Label of the terrain in instance images; features follow from 2.
 pub const TERRAIN_INSTANCE: u32 = 1;
@@ -37,29 +38,36 @@ pub struct StateParts {
     pub change: u16,
     /// Level of the change, 0 for none.
     pub level: u8,
-    pub parts: Parts,
+    pub parts: Arc<Parts>,
 }
 
-/// Who a class of ground triangles belongs to.
-struct Owner<'a> {
-    feature: FeatureId,
-    class: SceneClass,
-    instance: u32,
-    state: &'a StateParts,
-    face: &'a FlatFace,
-    bounds: (DVec2, DVec2),
+/// Meshes of the scene before.
+#[derive(Default)]
+pub struct Kept {
+    keeps: bool,
+    ground: Option<KeptGround>,
+    solids: BTreeMap<StateKey, KeptSolid>,
+    merged: BTreeMap<StateKey, KeptMerged>,
 }
 
-/// Key and identity of one scene object under construction.
-type Key = (u32, Presence, u16);
+type StateKey = (FeatureId, Presence);
 
-struct Draft {
-    feature: Option<FeatureId>,
-    class: SceneClass,
-    level: u8,
-    builder: Builder,
-    /// Owner and ground vertex → vertex of the run of the owner's material.
-    shared: BTreeMap<(Option<usize>, u32), u32>,
+struct KeptSolid {
+    parts: Arc<Parts>,
+    numbers: Vec<u32>,
+    mesh: SharedMesh,
+}
+
+struct KeptMerged {
+    parts: [SharedMesh; 2],
+    mesh: SharedMesh,
+}
+
+impl Kept {
+    /// Keeps the meshes of every scene for the next one; by default none are kept.
+    pub fn keeping() -> Kept {
+        Kept { keeps: true, ..Kept::default() }
+    }
 }
 
 /// The layers that the ground mesh has to honour, one per flat face, numbered in the order of `features`.
@@ -76,163 +84,82 @@ pub fn ground_layers(features: &[FeatureParts]) -> Vec<GroundLayer> {
 
 /// Builds the scene. `ground` was made from [`ground_layers`] of the same features; instance numbers follow the order
 /// of `features`.
-pub fn assemble(features: Vec<FeatureParts>, ground: &GroundMesh) -> Scene {
+pub fn assemble(features: Vec<FeatureParts>, ground: &Arc<GroundMesh>, kept: &mut Kept) -> Scene {
     let mut palette = Palette::default();
-    let mut objects = ground_objects(&features, ground, &mut palette);
+    let mut objects = ground_objects(&features, ground, &mut palette, kept);
+    let mut known = std::mem::take(&mut kept.solids);
     for (number, feature) in features.into_iter().enumerate() {
-        for state in feature.states {
-            let instance = TERRAIN_INSTANCE + 1 + number as u32;
-            let mut mesh = state.parts.solid;
-            if mesh.triangles.is_empty() {
+        for StateParts { presence, change, level, parts } in feature.states {
+            if parts.solid.triangles.is_empty() {
                 continue;
             }
-            renumber(&mut mesh, &state.parts.materials, &mut palette);
-            objects.push(SceneObject {
-                feature: Some(feature.feature),
-                instance,
-                class: feature.class,
-                presence: state.presence,
-                change: state.change,
-                level: state.level,
-                mesh,
-            });
+            let key = (feature.feature, presence);
+            let numbers: Vec<u32> = parts.materials.iter().map(|material| palette.number(material)).collect();
+            let same = |known: &KeptSolid| Arc::ptr_eq(&known.parts, &parts) && known.numbers == numbers;
+            let mesh = match known.remove(&key).filter(same) {
+                Some(known) => {
+                    let mesh = known.mesh.clone();
+                    kept.solids.insert(key, known);
+                    mesh
+                }
+                None => solid(parts, numbers, key, kept),
+            };
+            let (feature, class) = (feature.feature, feature.class);
+            let instance = TERRAIN_INSTANCE + 1 + number as u32;
+            objects.push(SceneObject { feature: Some(feature), instance, class, presence, change, level, mesh });
         }
     }
     objects.sort_by_key(|o| (o.instance, o.presence, o.change));
-    let objects = merged(objects);
+    let objects = merged(objects, kept);
     let bounds = bounds(&objects);
     Scene { objects, materials: palette.into_materials(), textures: Vec::new(), bounds }
 }
 
+/// The solid part of a state with the scene's materials.
+fn solid(parts: Arc<Parts>, numbers: Vec<u32>, key: StateKey, kept: &mut Kept) -> SharedMesh {
+    if !kept.keeps {
+        let own = Arc::try_unwrap(parts).map_or_else(|shared| shared.solid.clone(), |parts| parts.solid);
+        return renumbered(own, &numbers).into();
+    }
+    let mesh = SharedMesh::from(renumbered(parts.solid.clone(), &numbers));
+    kept.solids.insert(key, KeptSolid { parts, numbers, mesh: mesh.clone() });
+    mesh
+}
+
 /// Joins the ground part and the solid part of the same feature in the same state.
-fn merged(objects: Vec<SceneObject>) -> Vec<SceneObject> {
+fn merged(objects: Vec<SceneObject>, kept: &mut Kept) -> Vec<SceneObject> {
+    let mut known = std::mem::take(&mut kept.merged);
     let mut out: Vec<SceneObject> = Vec::with_capacity(objects.len());
     for object in objects {
         let key = |o: &SceneObject| (o.instance, o.presence, o.change);
-        match out.last_mut().filter(|last| key(last) == key(&object)) {
-            Some(last) => last.mesh.append(&object.mesh),
-            None => out.push(object),
+        let Some(last) = out.last_mut().filter(|last| key(last) == key(&object)) else {
+            out.push(object);
+            continue;
+        };
+        let state = object.feature.map(|feature| (feature, object.presence));
+        let same = |known: &KeptMerged| known.parts[0].is(&last.mesh) && known.parts[1].is(&object.mesh);
+        let join = state.and_then(|state| known.remove(&state)).filter(same).unwrap_or_else(|| {
+            let mut mesh = last.mesh.clone();
+            mesh.append(&object.mesh);
+            KeptMerged { parts: [last.mesh.clone(), object.mesh.clone()], mesh }
+        });
+        last.mesh = join.mesh.clone();
+        if let (true, Some(state)) = (kept.keeps, state) {
+            kept.merged.insert(state, join);
         }
     }
     out
 }
 
-fn renumber(mesh: &mut TriMesh, materials: &[Arc<Material>], palette: &mut Palette) {
+/// The mesh with its materials' numbers in the scene.
+fn renumbered(mut mesh: TriMesh, numbers: &[u32]) -> TriMesh {
     for group in &mut mesh.groups {
-        group.material = palette.number(&materials[group.material as usize]);
+        group.material = numbers[group.material as usize];
     }
+    mesh
 }
 
 fn bounds(objects: &[SceneObject]) -> (DVec3, DVec3) {
-    let mut points = objects.iter().flat_map(|o| &o.mesh.positions);
-    let Some(&first) = points.next() else { return (DVec3::ZERO, DVec3::ZERO) };
-    points.fold((first, first), |(lo, hi), &p| (lo.min(p), hi.max(p)))
-}
-
-/// Triangles of the ground, each in the object that owns its class; where a change takes the ground over, one object
-/// has it before and another after.
-fn ground_objects(features: &[FeatureParts], ground: &GroundMesh, palette: &mut Palette) -> Vec<SceneObject> {
-    let mut sorter = Sorter {
-        owners: owners(features),
-        ground,
-        normals: ground.normals(),
-        terrain: Arc::new(Material {
-            name: "terrain".into(),
-            colormap: Some(TERRAIN_TEXTURE.into()),
-            ..Material::default()
-        }),
-        terrain_uv: PlanUv::tiles(builtin_size(TERRAIN_TEXTURE).expect("the terrain's texture is built in")),
-        drafts: BTreeMap::new(),
-    };
-    for &(triangle, payload) in &ground.triangles {
-        let owner = payload.map(|p| p as usize);
-        match owner.map(|o| (sorter.owners[o].state.presence, sorter.owners[o].state.change)) {
-            None | Some((Presence::Both, _)) => sorter.add(owner, Presence::Both, 0, triangle),
-            Some((own, change)) => {
-                let middle = triangle.iter().map(|&i| plan(ground.positions[i as usize])).sum::<DVec2>() / 3.0;
-                let other = if own == Presence::AfterOnly { Presence::BeforeOnly } else { Presence::AfterOnly };
-                let below = below(&sorter.owners, middle, own);
-                sorter.add(owner, own, change, triangle);
-                sorter.add(below, other, change, triangle);
-            }
-        }
-    }
-    sorter.drafts.into_iter().map(|(key, draft)| finish(key, draft, palette)).collect()
-}
-
-/// The highest class at a point among those that do not belong to the state `hidden`.
-fn below(owners: &[Owner], point: DVec2, hidden: Presence) -> Option<usize> {
-    let covers =
-        |o: &Owner| o.bounds.0.cmple(point).all() && o.bounds.1.cmpge(point).all() && o.face.polygon.contains(point);
-    (0..owners.len())
-        .filter(|&i| owners[i].state.presence != hidden && covers(&owners[i]))
-        .max_by_key(|&i| (owners[i].face.priority, i))
-}
-
-fn owners(features: &[FeatureParts]) -> Vec<Owner<'_>> {
-    let mut owners = Vec::new();
-    for (number, feature) in features.iter().enumerate() {
-        for state in &feature.states {
-            owners.extend(state.parts.flat.iter().map(|face| Owner {
-                feature: feature.feature,
-                class: feature.class,
-                instance: TERRAIN_INSTANCE + 1 + number as u32,
-                state,
-                face,
-                bounds: polygon_bounds(&face.polygon),
-            }));
-        }
-    }
-    owners
-}
-
-fn polygon_bounds(polygon: &Polygon) -> (DVec2, DVec2) {
-    polygon.bounds().unwrap_or((DVec2::INFINITY, DVec2::NEG_INFINITY))
-}
-
-fn plan(p: DVec3) -> DVec2 {
-    DVec2::new(p.x, -p.z)
-}
-
-/// Sorts ground triangles into objects.
-struct Sorter<'a> {
-    owners: Vec<Owner<'a>>,
-    ground: &'a GroundMesh,
-    normals: Vec<Vec3>,
-    terrain: Arc<Material>,
-    terrain_uv: PlanUv,
-    drafts: BTreeMap<Key, Draft>,
-}
-
-impl Sorter<'_> {
-    /// Adds a triangle to the object of its owner (`None`: the terrain) in one state.
-    fn add(&mut self, number: Option<usize>, presence: Presence, change: u16, triangle: [u32; 3]) {
-        let owner = number.map(|o| &self.owners[o]);
-        let instance = owner.map_or(TERRAIN_INSTANCE, |o| o.instance);
-        let draft = self.drafts.entry((instance, presence, change)).or_insert_with(|| Draft {
-            feature: owner.map(|o| o.feature),
-            class: owner.map_or(SceneClass::Terrain, |o| o.class),
-            level: owner.map_or(0, |o| o.state.level),
-            builder: Builder::default(),
-            shared: BTreeMap::new(),
-        });
-        let uv = owner.map_or(self.terrain_uv, |o| o.face.uv);
-        let run = draft.builder.run(owner.map_or(&self.terrain, |o| &o.face.material));
-        let local = triangle.map(|i| {
-            *draft.shared.entry((number, i)).or_insert_with(|| {
-                let p = self.ground.positions[i as usize];
-                run.positions.push(p);
-                run.normals.push(self.normals[i as usize]);
-                run.uvs.push(uv.at(plan(p)).as_vec2());
-                (run.positions.len() - 1) as u32
-            })
-        });
-        run.triangles.push(local);
-    }
-}
-
-fn finish((instance, presence, change): Key, draft: Draft, palette: &mut Palette) -> SceneObject {
-    let (mut mesh, materials) = draft.builder.finish();
-    renumber(&mut mesh, &materials, palette);
-    SceneObject { feature: draft.feature, instance, class: draft.class, presence, change, level: draft.level, mesh }
+    let boxes = objects.iter().filter_map(|object| object.mesh.bounds());
+    boxes.reduce(|(lo, hi), (low, high)| (lo.min(low), hi.max(high))).unwrap_or_default()
 }

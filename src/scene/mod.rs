@@ -9,8 +9,10 @@ pub mod model;
 mod palette;
 pub mod parts;
 pub mod reflectance;
+mod shared_mesh;
 pub mod texture;
 mod triangles;
 pub mod vegetation;
 
 pub use model::{Group, Presence, Scene, SceneClass, SceneObject, TriMesh};
+pub use shared_mesh::SharedMesh;

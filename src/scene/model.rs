@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use glam::{DVec3, Vec2, Vec3};
 
+use super::shared_mesh::SharedMesh;
 use crate::geodata::feature::{FeatureClass, FeatureId};
 use crate::interpreter::material::Material;
 
@@ -135,7 +136,7 @@ pub struct SceneObject {
     pub change: u16,
     /// Level (damage grade) within the change, from 1; 0 for unchanged features.
     pub level: u8,
-    pub mesh: TriMesh,
+    pub mesh: SharedMesh,
 }
 
 /// Everything that is drawn or exported.

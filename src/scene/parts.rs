@@ -34,7 +34,7 @@ pub struct PlanUv {
 }
 
 /// One class of ground triangles.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct FlatFace {
     /// Plan: x east, y north.
     pub polygon: Polygon,

@@ -4,9 +4,11 @@
 //! [`Access`] rule that keeps every path inside the allowed folders.
 
 mod access;
+mod looked;
 mod map;
 mod project;
 
-pub use access::{Access, AccessError, MOST_TEXT_BYTES, read_regular};
+pub use access::{Access, AccessError, MOST_TEXT_BYTES, Overlay, read_regular};
+pub use looked::Looked;
 pub use map::{Place, SourceFile, SourceId, SourceMap, Span};
 pub use project::Project;

@@ -53,9 +53,11 @@ impl FileRef {
     pub fn resolve(&self, access: &Access) -> Result<PathBuf, AccessError> {
         match &self.origin {
             Origin::Beside(folder) => access.resolve(folder, &self.written),
-            Origin::CommandLine => Path::new(&self.written)
-                .canonicalize()
-                .map_err(|source| AccessError::Io { path: self.written.clone(), source }),
+            Origin::CommandLine => {
+                let path = Path::new(&self.written);
+                access.note(path);
+                path.canonicalize().map_err(|source| AccessError::Io { path: self.written.clone(), source })
+            }
             Origin::Shipped => unreachable!("shipped files are embedded, ask for their text"),
         }
     }

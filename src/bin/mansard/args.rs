@@ -26,7 +26,7 @@ pub enum Command {
         /// Report what rule files written for CityEngine meet here; folders are searched for .cga files
         #[arg(long)]
         cityengine: bool,
-        /// `json` prints one object per line
+        /// `json` prints one object per line, `short` one line per mistake (per folder with `--cityengine`)
         #[arg(long, value_enum, default_value_t = Format::Text)]
         format: Format,
         #[command(flatten)]
@@ -71,6 +71,8 @@ pub enum Command {
     },
     /// Make the dataset of a recipe
     Render(RenderArgs),
+    /// Follow a recipe and everything it names: what is saved is seen at once
+    Watch(WatchArgs),
     /// Show what a recipe will derive and draw, what not, and why; needs no GPU
     Plan {
         recipe: PathBuf,
@@ -102,6 +104,12 @@ pub enum Command {
     ///
     /// Exit codes: 0 verified, 1 something differs, 2 it cannot be verified, as where an input is missing or is not what it was.
     Verify(VerifyArgs),
+    /// Serve an editor: the Language Server Protocol on standard input and output
+    Lsp {
+        /// The only way there is; some editors name it
+        #[arg(long)]
+        stdio: bool,
+    },
     /// Look into a phase
     Dump {
         #[arg(value_enum)]
@@ -210,6 +218,42 @@ pub struct DiffArgs {
 }
 
 #[derive(Clone, Debug, clap::Args)]
+pub struct WatchArgs {
+    pub recipe: PathBuf,
+    /// No window: one line of JSON per update on standard output, and the picture in a file
+    #[arg(long)]
+    pub headless: bool,
+    /// Print updates and what happens in the window as lines of JSON
+    #[arg(long, conflicts_with = "headless")]
+    pub json: bool,
+    /// Folder of the window's screenshots
+    #[arg(long, value_name = "DIR", default_value = ".")]
+    pub screenshots: PathBuf,
+    /// The picture, written whole after every update that changes it
+    #[arg(long, value_name = "FILE", requires = "headless")]
+    pub png: Option<PathBuf>,
+    /// The view to draw, by name; the recipe's first otherwise
+    #[arg(long, value_name = "VIEW")]
+    pub view: Option<String>,
+    /// The image of the view to draw
+    #[arg(long, value_enum, default_value_t = ShownName::After)]
+    pub state: ShownName,
+    /// The scene to show, by name; the recipe's first otherwise
+    #[arg(long, value_name = "SCENE")]
+    pub scene: Option<String>,
+    /// End after this many updates; exit code 1 if the last one failed
+    #[arg(long, value_name = "N", requires = "headless")]
+    pub updates: Option<u64>,
+    /// End after the first update
+    #[arg(long, requires = "headless", conflicts_with = "updates")]
+    pub once: bool,
+    #[command(flatten)]
+    pub options: RecipeOptions,
+    #[command(flatten)]
+    pub work: WorkOptions,
+}
+
+#[derive(Clone, Debug, clap::Args)]
 pub struct VerifyArgs {
     /// A folder that `mansard render` wrote
     pub dir: PathBuf,
@@ -237,6 +281,13 @@ pub enum ColoursName {
     Exact,
     /// On another adapter or driver within 1/255, depths within 1e-5 of themselves; labels are always exact
     Close,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum ShownName {
+    Before,
+    After,
+    Mask,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -286,6 +337,8 @@ pub struct DeriveArgs {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Format {
     Text,
+    /// `FILE:LINE:COLUMN: error[CODE]: MESSAGE`, as editors read it
+    Short,
     Json,
 }
 

@@ -23,7 +23,7 @@ impl RecipeOptions {
             _ => Err(Failure::unable(format!("--set {text}: write NAME=VALUE"))),
         };
         let arguments = self.set.iter().map(argument).collect::<Result<_, _>>()?;
-        Ok(pipeline::RecipeOptions { arguments, allow: self.allow.clone() })
+        Ok(pipeline::RecipeOptions { arguments, allow: self.allow.clone(), looked: None })
     }
 }
 

@@ -11,6 +11,7 @@ mod dump;
 mod explain;
 mod fmt;
 mod footprint;
+mod lsp;
 mod plan;
 mod progress;
 mod render;
@@ -20,6 +21,7 @@ mod start_shapes;
 mod town;
 mod validate;
 mod verify;
+mod watch;
 
 use std::process::ExitCode;
 
@@ -52,12 +54,14 @@ fn main() -> ExitCode {
             build::run(&recipe, &output, reports.as_ref(), checks, &options, &work, &reporter)
         }
         Command::Render(render) => render::run(&render, &reporter),
+        Command::Watch(watch) => watch::run(&watch),
         Command::Plan { recipe, format, options, work } => plan::run(&recipe, format, &options, &work, &reporter),
         Command::Cost { recipe, output, measure, options, work } => {
             cost::run(&recipe, &output, &measure, &options, &work, &reporter)
         }
         Command::Diff(diff) => diff::run(&diff, &reporter),
         Command::Verify(verify) => verify::run(&verify, &reporter),
+        Command::Lsp { stdio: _ } => lsp::run(),
         Command::Dump { phase, file } => dump::run(phase, &file, args.quiet),
         Command::Town { seed, buildings, output, name } => town::run(seed, buildings, &output, &name, &reporter),
     };

@@ -11,7 +11,7 @@ mod lexer;
 mod successors;
 #[cfg(test)]
 mod tests;
-pub(super) mod tokens;
+pub mod tokens;
 mod wording;
 
 use std::rc::Rc;
@@ -38,7 +38,7 @@ mod grammar {
 }
 
 pub(super) use grammar::{Grammar, Rule};
-pub(super) use lexer::lex;
+pub use lexer::lex;
 
 /// Parses a whole file. The tree holds every declaration that could be read.
 ///

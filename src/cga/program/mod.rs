@@ -5,6 +5,7 @@
 //! instance with its own rules and attributes, named with its prefix (`lib.Wall`). A style is chosen at compile time.
 
 mod expression;
+pub mod fingerprint;
 mod needs;
 mod successor;
 
@@ -126,6 +127,8 @@ pub struct Annotations {
     /// Nested groups, outermost first.
     pub groups: Vec<Arc<str>>,
     pub order: Option<f64>,
+    /// `@Color`: the text is a colour, `#rrggbb`.
+    pub color: bool,
     pub description: Option<Arc<str>>,
     pub display_name: Option<Arc<str>>,
 }
@@ -197,6 +200,16 @@ impl Program {
     /// Rules marked as start rules, in source order; the first is the host's default.
     pub fn start_rules(&self) -> &[RuleId] {
         &self.start_rules
+    }
+
+    /// The rule that a derivation starts with: the one the host names, without parameters, else the first start rule,
+    /// else the first rule without parameters.
+    pub fn start(&self, wanted: Option<&str>) -> Option<RuleId> {
+        if let Some(name) = wanted {
+            return self.rule_named(name, 0);
+        }
+        let first = || self.rules.iter().position(|rule| rule.parameters.is_empty());
+        self.start_rules.first().copied().or_else(|| first().map(|number| RuleId(number as u32)))
     }
 
     /// The rule a host names, with this number of parameters.

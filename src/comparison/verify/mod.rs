@@ -148,7 +148,11 @@ pub fn verify(
 
     // Find what it was made of.
     let located = locate::locate(first, &folders[0], options)?;
-    let recipe_options = RecipeOptions { arguments: located.arguments.clone(), allow: located.allow.clone() };
+    let recipe_options = RecipeOptions {
+        arguments: located.arguments.clone(),
+        allow: located.allow.clone(),
+        ..RecipeOptions::default()
+    };
     let recipe = load_recipe(&located.recipe, &recipe_options, sources)?;
     let early = |role: &str| matches!(role, "recipe" | "rules" | "map" | "elevation");
     check_inputs(first, &recipe.inputs(sources, &[])?, &early)?;

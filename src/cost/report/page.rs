@@ -116,17 +116,22 @@ fn presets(out: &mut String, sweep: &Sweep, about: &About) {
     for metric in &metrics {
         let _ = write!(out, "<th>{}</th>", short(*metric));
     }
-    out.push_str("</tr>");
-    for row in rows {
+    out.push_str("<th>frontier</th></tr>");
+    let joint = sweep.joint_frontier();
+    let on = sweep.rows.iter().zip(joint).filter(|(row, _)| row.kind == Kind::Preset).map(|(_, on)| on);
+    for (row, on) in rows.into_iter().zip(on) {
         let class = if row.value == about.own { " class=\"own\"" } else { "" };
         let _ = write!(out, "<tr{class}><td>{}</td>{}", escape(&row.value), times(row));
         for metric in &metrics {
             let text = row.errors.get(*metric).map_or("–".to_owned(), |value| metric.text(value));
             let _ = write!(out, "<td>{text}</td>");
         }
-        out.push_str("</tr>");
+        let _ = write!(out, "<td{}>{}</td></tr>", if on { " class=\"on\"" } else { "" }, if on { "on" } else { "off" });
     }
-    out.push_str("</table></div>");
+    out.push_str(
+        "</table></div><p class=\"soft\">On the frontier: no other setting measured is faster beyond the spread of times, \
+         better in one figure and worse in none.</p>",
+    );
 }
 
 fn short(metric: Metric) -> &'static str {

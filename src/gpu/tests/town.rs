@@ -67,7 +67,7 @@ pub fn add(scene: &mut Scene, class: SceneClass, presence: Presence, faces: &[(V
     let number = scene.objects.len();
     let (feature, change, level) = (None, 0, 0);
     let instance = number as u32 + 1;
-    scene.objects.push(SceneObject { feature, instance, class, presence, change, level, mesh });
+    scene.objects.push(SceneObject { feature, instance, class, presence, change, level, mesh: mesh.into() });
     number
 }
 

@@ -267,6 +267,7 @@ impl Listing<'_> {
             return Ok(());
         }
         // Folders that cannot be listed hold nothing that could be read.
+        self.access.note(path);
         let Ok(entries) = std::fs::read_dir(path) else { return Ok(()) };
         above.push(real);
         for entry in entries.flatten() {

@@ -65,6 +65,9 @@ pub enum AssetError {
     Query(String),
 }
 
+/// Rows of a table, or why there is none.
+pub type Table = Result<Arc<Array<Arc<str>>>, AssetError>;
+
 /// Name and value pairs of a material, as `setMaterial` takes them.
 pub type Pairs = Vec<(Arc<str>, Arc<str>)>;
 
@@ -107,7 +110,7 @@ pub trait Assets: Sync {
     }
 
     /// A table of at most `most` cells.
-    fn table(&self, _folder: &Path, name: &str, _most: usize) -> Result<Arc<Array<Arc<str>>>, AssetError> {
+    fn table(&self, _folder: &Path, name: &str, _most: usize) -> Table {
         Err(AssetError::NotFound(name.to_owned()))
     }
 

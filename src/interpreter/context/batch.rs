@@ -1,6 +1,8 @@
 //! Many start shapes that see each other. In: their programs and meshes. Out: which of them need a first derivation, and
 //! the second derivation of each; a host may run either in any order and on any number of threads.
 
+use std::sync::Arc;
+
 use super::super::assets::Assets;
 use super::super::limits::Limits;
 use super::super::tree::ShapeTree;
@@ -17,7 +19,7 @@ pub type Worlds = u8;
 #[derive(Clone, Debug)]
 pub struct Member<'a> {
     pub program: &'a Program,
-    pub start: StartShape,
+    pub start: Arc<StartShape>,
     pub is_in: Worlds,
     pub sees: Worlds,
 }
@@ -81,23 +83,31 @@ impl<'a> Batch<'a> {
     }
 
     /// The second derivation, or the only one. `surveys` holds [`Batch::survey`] of every member.
-    pub fn derive(&self, number: usize, surveys: &[Option<Survey>]) -> ShapeTree {
-        let Member { program, start, sees, .. } = &self.members[number];
+    pub fn derive(&self, number: usize, surveys: &[Option<Survey>], assets: &dyn Assets) -> ShapeTree {
+        let Member { program, start, .. } = &self.members[number];
+        match self.surroundings(number, surveys) {
+            None => derive(program, start, assets, self.limits),
+            Some(surroundings) => derive_among(program, start, assets, self.limits, &surroundings),
+        }
+    }
+
+    /// What the queries of a member are answered from; `None` where it has none.
+    pub fn surroundings<'s>(&self, number: usize, surveys: &'s [Option<Survey>]) -> Option<Surroundings<'s>> {
+        let Member { program, sees, .. } = &self.members[number];
         let needs = program.needs();
         if !needs.asks() {
-            return derive(program, start, self.assets, self.limits);
+            return None;
         }
         let near = self.near[number].iter().filter_map(|&j| surveys[j as usize].as_ref()).collect();
         let others = (0..self.members.len()).filter(|&j| needs.far && j != number && self.members[j].is_in & sees != 0);
         let labelled = others.filter(|&j| self.members[j].program.needs().labels);
         let labelled = labelled.filter_map(|j| surveys[j].as_ref()).collect();
-        let surroundings = Surroundings { own: surveys[number].as_ref(), near, labelled };
-        derive_among(program, start, self.assets, self.limits, &surroundings)
+        Some(Surroundings { own: surveys[number].as_ref(), near, labelled })
     }
 
     /// Everything on this thread.
     pub fn derive_all(&self) -> Vec<ShapeTree> {
         let surveys: Vec<Option<Survey>> = (0..self.members.len()).map(|i| self.survey(i)).collect();
-        (0..self.members.len()).map(|i| self.derive(i, &surveys)).collect()
+        (0..self.members.len()).map(|i| self.derive(i, &surveys, self.assets)).collect()
     }
 }

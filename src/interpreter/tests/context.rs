@@ -7,8 +7,12 @@ use super::*;
 #[track_caller]
 fn batch(rules: &str, lots: &[&[(f64, f64)]]) -> Vec<Vec<String>> {
     let program = compiled(rules);
-    let lot =
-        |corners: &&[(f64, f64)]| Member { program: &program, start: start(ground(corners), 0), is_in: 1, sees: 1 };
+    let lot = |corners: &&[(f64, f64)]| Member {
+        program: &program,
+        start: start(ground(corners), 0).into(),
+        is_in: 1,
+        sees: 1,
+    };
     let lots: Vec<Member> = lots.iter().map(lot).collect();
     let limits = Limits::default();
     let batch = Batch::new(&lots, &NoAssets, &limits);
@@ -204,7 +208,7 @@ fn neighbours_count_within_reach_and_labels_everywhere() {
 fn worlds_do_not_meet() {
     let program =
         compiled("Lot --> extrude(6) label(\"a\") print(overlaps(inter) + \" \" + contextCount(inter, \"a\")) A.");
-    let lot = |is_in, sees| Member { program: &program, start: start(ground(LOT), 0), is_in, sees };
+    let lot = |is_in, sees| Member { program: &program, start: start(ground(LOT), 0).into(), is_in, sees };
     // One before a change, one after it, one in both, which looks at the state before.
     let lots = [lot(1, 1), lot(2, 2), lot(3, 1)];
     let trees = Batch::new(&lots, &NoAssets, &Limits::default()).derive_all();
@@ -220,7 +224,7 @@ fn only_programs_that_ask_are_derived_twice() {
     let plain = compiled("Lot --> extrude(6) label(\"a\") A.");
     let asking = compiled("Lot --> case contextCount(inter, \"a\") > 0 : A. else : B.");
     let far: &[(f64, f64)] = &[(500.0, 0.0), (510.0, 0.0), (510.0, -8.0)];
-    let lot = |program, corners| Member { program, start: start(ground(corners), 0), is_in: 1, sees: 1 };
+    let lot = |program, corners| Member { program, start: start(ground(corners), 0).into(), is_in: 1, sees: 1 };
     let (limits, none) = (Limits::default(), compiled("Lot --> A."));
     let alone = [lot(&plain, LOT), lot(&plain, far)];
     let alone = Batch::new(&alone, &NoAssets, &limits);

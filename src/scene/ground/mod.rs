@@ -35,7 +35,7 @@ pub enum Surface {
 }
 
 /// Polygons of one kind on the ground.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct GroundLayer {
     /// In the plan, metres (x east, y north). They may overlap each other and reach beyond the area.
     pub polygons: Vec<Polygon>,

@@ -81,7 +81,7 @@ pub fn plant(
             presence: Presence::Both,
             change: 0,
             level: 0,
-            mesh,
+            mesh: mesh.into(),
         });
         planted.grown.push((group.id, count));
     }
