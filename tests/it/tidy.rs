@@ -170,7 +170,7 @@ fn files_are_short_and_say_what_goes_in_and_out() {
 }
 
 #[test]
-fn only_the_program_prints_or_exits_and_only_gpu_sees_wgpu() {
+fn only_the_program_prints_or_exits_and_only_two_see_wgpu() {
     let mut breaches = Vec::new();
     for path in files("src", ".rs") {
         let Some(own) = module(&path) else { continue };
@@ -183,7 +183,9 @@ fn only_the_program_prints_or_exits_and_only_gpu_sees_wgpu() {
             if printed.iter().any(|p| line.contains(p)) {
                 breaches.push(format!("{}:{number}: prints or exits", short(&path)));
             }
-            if line.contains("wgpu") && own != "gpu" {
+            // The window's painter draws panels; nothing else of the window knows what shows it.
+            let sees_wgpu = own == "gpu" || path.ends_with("window/painter.rs");
+            if line.contains("wgpu") && !sees_wgpu {
                 breaches.push(format!("{}:{number}: `{own}` speaks of wgpu", short(&path)));
             }
             if ["todo!(", "unimplemented!("].iter().any(|p| line.contains(p)) {

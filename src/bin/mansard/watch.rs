@@ -1,6 +1,7 @@
 //! `mansard watch`: a recipe and everything it names are followed.
 
 mod headless;
+mod window;
 
 use crate::args::WatchArgs;
 use crate::build::use_threads;
@@ -11,5 +12,5 @@ pub fn run(args: &WatchArgs) -> Result<(), Failure> {
     if args.headless {
         return headless::run(args);
     }
-    Err(Failure::unable("there is no window yet: say --headless"))
+    window::run(args)
 }

@@ -48,6 +48,7 @@ impl Grouping {
             match &*annotation.name.text {
                 "Group" => self.groups = strings(args).collect(),
                 "Hidden" => out.hidden = true,
+                "Color" => out.color = true,
                 "Order" => out.order = numbers(args).next(),
                 "Description" => out.description = strings(args).next(),
                 "DisplayName" => out.display_name = strings(args).next(),

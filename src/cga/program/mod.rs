@@ -127,6 +127,8 @@ pub struct Annotations {
     /// Nested groups, outermost first.
     pub groups: Vec<Arc<str>>,
     pub order: Option<f64>,
+    /// `@Color`: the text is a colour, `#rrggbb`.
+    pub color: bool,
     pub description: Option<Arc<str>>,
     pub display_name: Option<Arc<str>>,
 }
