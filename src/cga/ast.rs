@@ -30,6 +30,8 @@ pub struct Text {
 pub struct Declaration {
     pub annotations: Vec<Annotation>,
     pub kind: DeclarationKind,
+    /// Without the annotations.
+    pub span: Span,
 }
 
 #[derive(Clone, Debug, PartialEq)]

@@ -14,5 +14,6 @@ pub mod parse;
 pub mod program;
 
 pub use check::{CompileOptions, check, compile, compile_text, styles};
+pub use check::{Index, IndexedFile, Meaning, Name, annotation_names, index, selector_words};
 pub use dump::{dump_ast, dump_program};
 pub use format::format;

@@ -6,7 +6,7 @@
 use super::bench::{Bench, CostError, Setting, Times};
 use super::errors::{Errors, Metric};
 use super::knobs::{FINE, Subject, Unswept, combinations, knobs, unswept};
-use super::pareto::frontier;
+use super::pareto::{Measured, frontier, joint_frontier};
 use crate::plan::demand::Quality;
 
 /// What a row is a value of.
@@ -134,5 +134,14 @@ impl Sweep {
     pub fn frontier(&self, metric: Metric) -> Vec<bool> {
         let points: Vec<_> = self.rows.iter().map(|row| (row.times.median, row.errors.get(metric))).collect();
         frontier(&points)
+    }
+
+    /// One flag per row: no other setting is faster beyond the spread of times, better by one metric and worse by none.
+    pub fn joint_frontier(&self) -> Vec<bool> {
+        let measured = |row: &Row| Measured {
+            time: (row.times.least, row.times.most),
+            errors: Metric::ALL.map(|metric| row.errors.get(metric)).to_vec(),
+        };
+        joint_frontier(&self.rows.iter().map(measured).collect::<Vec<_>>())
     }
 }

@@ -9,7 +9,7 @@ mod suggest;
 use crate::source::Span;
 
 pub use explain::{explain, pages};
-pub use render::{Rendered, json_line, render};
+pub use render::{Rendered, json_line, render, short_line};
 pub use suggest::suggest;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -86,6 +86,13 @@ pub fn json_line(diagnostic: &Diagnostic, sources: &SourceMap) -> String {
     serde_json::to_string(&Rendered::new(diagnostic, sources)).expect("plain strings and numbers serialise")
 }
 
+/// One diagnostic as one line for editors: `FILE:LINE:COLUMN: error[CODE]: MESSAGE`; lines and columns count from 1.
+pub fn short_line(diagnostic: &Diagnostic, sources: &SourceMap) -> String {
+    let Rendered { code, severity, message, file, line, column, help, .. } = Rendered::new(diagnostic, sources);
+    let help = help.map_or(String::new(), |help| format!(" ({help})"));
+    format!("{file}:{line}:{column}: {severity}[{code}]: {message}{help}").replace('\n', " ")
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -98,5 +105,15 @@ mod tests {
         let diagnostic = Diagnostic::error("test::code", Span::new(file.id, 70_000, 70_004), "what is this");
         let text = render(&diagnostic, &sources, false);
         assert!(text.contains("test::code") && text.contains("[long.cga:1:70001]"), "{text}");
+    }
+
+    #[test]
+    fn a_short_line_is_one_line() {
+        let mut sources = SourceMap::default();
+        let file = sources.add("a.cga", "Lot -->\n  extrud(3)");
+        let diagnostic = Diagnostic::error("cga::unknown-name", Span::new(file.id, 10, 16), "no `extrud`\nhere");
+        let diagnostic = diagnostic.help("did you mean `extrude`?");
+        let expected = "a.cga:2:3: error[cga::unknown-name]: no `extrud` here (did you mean `extrude`?)";
+        assert_eq!(short_line(&diagnostic, &sources), expected);
     }
 }

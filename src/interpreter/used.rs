@@ -35,7 +35,9 @@ impl Bits {
     /// In ascending order.
     pub fn iter(&self) -> impl Iterator<Item = u32> {
         let words = (0..).zip(&self.0);
-        words.flat_map(|(at, &word): (u32, _)| (0..64).filter(move |bit| word & (1 << bit) != 0).map(move |bit| 64 * at + bit))
+        words.flat_map(|(at, &word): (u32, _)| {
+            (0..64).filter(move |bit| word & (1 << bit) != 0).map(move |bit| 64 * at + bit)
+        })
     }
 }
 

@@ -61,8 +61,7 @@ impl Overrides {
         if let Some(SunAngles { elevation, azimuth }) = self.sun {
             let (elevation, azimuth) = (Distribution::Fixed(elevation), Distribution::Fixed(azimuth));
             for dataset in &mut spec.datasets {
-                dataset.sun.position =
-                    SunPosition::Angles { elevation: elevation.clone(), azimuth: azimuth.clone() };
+                dataset.sun.position = SunPosition::Angles { elevation: elevation.clone(), azimuth: azimuth.clone() };
             }
         }
     }

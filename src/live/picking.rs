@@ -137,7 +137,8 @@ fn leaf_under(traced: &Traced, meshes: &[&TriMesh], ray: Ray) -> Option<usize> {
     let first = meshes.iter().filter_map(|mesh| first_hit(mesh, ray)).reduce(f64::min)?;
     let at = ray.origin + ray.direction * first;
     let near = |distance: f64| ((distance - first) * ray.direction.length()).abs();
-    let solid = traced.parts.iter().enumerate().filter_map(|(number, parts)| Some((number, first_hit(&parts.solid, ray)?)));
+    let solid =
+        traced.parts.iter().enumerate().filter_map(|(number, parts)| Some((number, first_hit(&parts.solid, ray)?)));
     let solid = solid.min_by(|a, b| near(a.1).total_cmp(&near(b.1))).filter(|(_, distance)| near(*distance) < 0.01);
     if let Some((number, _)) = solid {
         return Some(number);
@@ -176,7 +177,8 @@ mod tests {
     #[test]
     fn rays_meet_triangles_from_both_sides() {
         let triangle = [DVec3::ZERO, DVec3::X * 4.0, DVec3::Z * -4.0];
-        let ray = |x: f64, z: f64, down: f64| Ray { origin: DVec3::new(x, 3.0 * down, z), direction: DVec3::Y * -2.0 * down };
+        let ray =
+            |x: f64, z: f64, down: f64| Ray { origin: DVec3::new(x, 3.0 * down, z), direction: DVec3::Y * -2.0 * down };
         assert_eq!(hit(triangle, ray(1.0, -1.0, 1.0)), Some(1.5));
         assert_eq!(hit(triangle, ray(1.0, -1.0, -1.0)), Some(1.5));
         assert_eq!(hit(triangle, ray(3.0, -3.0, 1.0)), None);

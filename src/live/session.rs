@@ -160,12 +160,7 @@ impl Session {
     }
 
     /// Reads what changed, builds the scene and draws its views. Out: warnings.
-    fn bring(
-        &mut self,
-        changed: &[PathBuf],
-        overrides: &Overrides,
-        round: &mut Round,
-    ) -> Result<Vec<Message>, Failed> {
+    fn bring(&mut self, changed: &[PathBuf], overrides: &Overrides, round: &mut Round) -> Result<Vec<Message>, Failed> {
         if self.loaded.is_none() || changed.iter().any(|path| self.looked.contains(path)) {
             self.load(round)?;
         }
@@ -300,7 +295,8 @@ fn failed(error: PipelineError, sources: &SourceMap) -> Failed {
         PipelineError::Stopped => return Failed::Stopped,
         PipelineError::Diagnostics(list) => list.iter().map(|d| Message::new(d, sources)).collect(),
         PipelineError::Endless(list) => {
-            let own = Message::plain(format!("{}; this update was given up", PipelineError::Endless(Default::default())));
+            let own =
+                Message::plain(format!("{}; this update was given up", PipelineError::Endless(Default::default())));
             list.iter().map(|d| Message::new(d, sources)).chain([own]).collect()
         }
         other => vec![Message::plain(other.to_string())],

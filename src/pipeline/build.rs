@@ -6,7 +6,7 @@ use super::derivation::{Derivation, derive_features};
 use super::error::PipelineError;
 use super::memory::Memory;
 use super::place::{Place, Site, site};
-use super::preparation::{PreparedScene, prepare};
+use super::preparation::{Assignment, PreparedScene, prepare};
 use super::progress::Progress;
 use super::recipe::Recipe;
 use super::record::{asset_files, geometry_hash, report_records};
@@ -38,6 +38,8 @@ pub struct BuiltScene {
     pub terrain: Arc<Terrain>,
     pub record: SceneRecord,
     pub reports: SceneReports,
+    /// Of every feature, in the order of their ids.
+    pub assignments: Vec<Assignment>,
     /// Only where mesh checks were asked for.
     pub validation: Option<Validation>,
     /// Textures and geometry files that rules named.
@@ -123,17 +125,30 @@ fn rebuild(
     let Some(promised_m) = height_budget(recipe, index) else {
         return build(recipe, index, usual, checks, memory, progress);
     };
-    // The tolerance is aimed at; along borders that are split later a finer one may be needed to keep it.
+    let built = within_height(promised_m, |terrain_tolerance_m| {
+        let built = build(recipe, index, Fineness { terrain_tolerance_m, ..usual }, checks, memory, progress)?;
+        let error_m = built.record.terrain_error_m;
+        Ok::<_, PipelineError>((built, error_m))
+    })?;
+    let name = || recipe.spec.scenes[index].name.clone();
+    built.map_err(|best_m| PipelineError::HeightBudget { scene: name(), promised_m, best_m })
+}
+
+/// The first of what `build` makes of ever finer tolerances whose error keeps a promise, metres, or else the least error.
+/// The tolerance is aimed at; along borders that are split later a finer one may be needed to keep it.
+fn within_height<T, E>(
+    promised_m: f64,
+    mut build: impl FnMut(f64) -> Result<(T, f64), E>,
+) -> Result<Result<T, f64>, E> {
     let mut best_m = f64::INFINITY;
     for share in [1.0, 0.5, 0.25, 0.125] {
-        let fineness = Fineness { terrain_tolerance_m: promised_m * share, ..usual };
-        let built = build(recipe, index, fineness, checks, memory, progress)?;
-        if built.record.terrain_error_m <= promised_m {
-            return Ok(built);
+        let (built, error_m) = build(promised_m * share)?;
+        if error_m <= promised_m {
+            return Ok(Ok(built));
         }
-        best_m = best_m.min(built.record.terrain_error_m);
+        best_m = best_m.min(error_m);
     }
-    Err(PipelineError::HeightBudget { scene: recipe.spec.scenes[index].name.clone(), promised_m, best_m })
+    Ok(Err(best_m))
 }
 
 /// The least height that datasets of a scene promise of its ground.
@@ -252,7 +267,8 @@ fn put_together(
     );
     let (frame, terrain) = (*frame, terrain.clone());
     let (diagnostics, prints) = (derived.diagnostics, derived.prints);
-    Ok(BuiltScene { scene, frame, terrain, record, reports, validation, files, diagnostics, prints })
+    let assignments = prepared.assignments.clone();
+    Ok(BuiltScene { scene, frame, terrain, record, reports, assignments, validation, files, diagnostics, prints })
 }
 
 #[expect(clippy::too_many_arguments, reason = "the fields of one record")]
@@ -310,4 +326,26 @@ fn change_records(
         });
     }
     records
+}
+
+#[cfg(test)]
+mod tests {
+    use std::convert::Infallible;
+
+    use super::*;
+
+    #[test]
+    fn a_height_is_kept_by_the_coarsest_tolerance_that_does_or_the_least_error_is_named() {
+        let mut tried = Vec::new();
+        let kept = within_height(0.5, |tolerance| {
+            tried.push(tolerance);
+            Ok::<_, Infallible>((tolerance, 3.0 * tolerance))
+        });
+        assert_eq!((kept, tried), (Ok(Ok(0.125)), vec![0.5, 0.25, 0.125]));
+        let never = within_height(0.5, |tolerance| Ok::<_, Infallible>(((), 2.0 - tolerance)));
+        assert_eq!(never, Ok(Err(1.5)));
+        assert_eq!(within_height(0.5, |_| Err::<((), f64), _>("no elevation")), Err("no elevation"));
+        let error = PipelineError::HeightBudget { scene: "town".to_owned(), promised_m: 0.5, best_m: 1.5 };
+        assert!(error.to_string().contains("1.5"), "{error}");
+    }
 }

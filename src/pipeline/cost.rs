@@ -175,34 +175,32 @@ fn scene_knobs(recipe: &Recipe, scene: usize, gsd: f64, has_elevation: bool) -> 
         let name = if pixels == 0.0 { "all".to_owned() } else { format!("none below {pixels} px, {detail_m} m") };
         (name, Fineness { detail_m, ..own })
     };
-    let terrain = SceneKnob {
-        text: KnobText {
-            name: "terrain tolerance",
-            metric: Metric::Height,
-            about: "how far the ground mesh may lie beside the elevation data; the truth is the finest",
-        },
-        values: TOLERANCES.map(tolerance).to_vec(),
-    };
-    let detail = SceneKnob {
-        text: KnobText {
-            name: "geometry detail",
-            metric: Metric::Light,
-            about: "which facade detail is left out, against the size of a pixel (`detail` of a recipe)",
-        },
-        values: DETAILS.map(detail).to_vec(),
-    };
     let bands = |curve_bands: u32| {
         let name = format!("{curve_bands} bands{}", usual(curve_bands == CURVE_BANDS));
         (name, Fineness { curve_bands, ..own })
     };
-    let curves = SceneKnob {
-        text: KnobText {
-            name: "curve tessellation",
-            metric: Metric::Light,
-            about: "bands of planes from the eaves to the top of round roofs (`curves` of a recipe)",
-        },
-        values: CURVES.map(bands).to_vec(),
+    let knob = |name, metric, about, values: [(String, Fineness); 6]| SceneKnob {
+        text: KnobText { name, metric, about },
+        values: values.to_vec(),
     };
+    let terrain = knob(
+        "terrain tolerance",
+        Metric::Height,
+        "how far the ground mesh may lie beside the elevation data; the truth is the finest",
+        TOLERANCES.map(tolerance),
+    );
+    let detail = knob(
+        "geometry detail",
+        Metric::Light,
+        "which facade detail is left out, against the size of a pixel (`detail` of a recipe)",
+        DETAILS.map(detail),
+    );
+    let curves = knob(
+        "curve tessellation",
+        Metric::Light,
+        "bands of planes from the eaves to the top of round roofs (`curves` of a recipe)",
+        CURVES.map(bands),
+    );
     [has_elevation.then_some(terrain), Some(detail), Some(curves)].into_iter().flatten().collect()
 }
 
@@ -229,19 +227,27 @@ fn scene_knob(
 ) -> Result<(), PipelineError> {
     let own = Quality::from(&subject.dataset.quality);
     let build = |fineness| build_scene_within(recipe, subject.scene, fineness, Checks::Off, progress);
-    let (_, finest) = knob.values.last().expect("a knob has values");
-    let truth = build(*finest)?;
-    let (_, coarsest) = knob.values.first().expect("a knob has values");
-    if build(*coarsest)?.record.geometry_sha256 == truth.record.geometry_sha256 {
+    let (Some((_, coarsest)), Some((_, finest))) = (knob.values.first(), knob.values.last()) else { return Ok(()) };
+    let (coarsest, truth) = (build(*coarsest)?, build(*finest)?);
+    if coarsest.record.geometry_sha256 == truth.record.geometry_sha256 {
         sweep.unswept.push(Unswept { knob: knob.text.name, reason: "it changes nothing in this scene" });
         return Ok(());
     }
     let true_demand = demand(recipe, subject, &truth);
     let mut bench = Bench::new(renderer, &truth.scene, &[true_demand], None, windows(options), &|_| {})?;
     let of_ground = knob.text.metric == Metric::Height;
-    for (name, fineness) in &knob.values {
-        let built = build(*fineness)?;
-        let demand = demand(recipe, subject, &built);
+    let last = knob.values.len() - 1;
+    for (number, (name, fineness)) in knob.values.iter().enumerate() {
+        let between;
+        let built = match number {
+            0 => &coarsest,
+            _ if number == last => &truth,
+            _ => {
+                between = build(*fineness)?;
+                &between
+            }
+        };
+        let demand = demand(recipe, subject, built);
         bench.replace(&built.scene, &[demand], of_ground.then_some(built.record.terrain_error_m))?;
         let value = format!("{name}, {} triangles", built.record.triangles);
         sweep.scene_value(&mut bench, &knob.text, &value, own, work)?;

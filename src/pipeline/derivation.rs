@@ -99,9 +99,8 @@ pub(super) fn derive_features(
             wanted.push(Wanted { feature: number, key: (features[number].id, state.state.presence), state, lot });
         }
     }
-    let each = |number: usize, tree: ShapeTree| {
-        Arc::new(derived(tree, wanted[number].lot, &site.place.terrain, checks))
-    };
+    let each =
+        |number: usize, tree: ShapeTree| Arc::new(derived(tree, wanted[number].lot, &site.place.terrain, checks));
     let made = if memory.keeps {
         let round = memory.states.begin(&recipe.programs, limits, checks);
         let valid = valid(&members, &wanted, &memory.states, &round);
@@ -129,9 +128,8 @@ pub(super) fn derive_features(
 /// at all.
 fn valid(members: &[Member], wanted: &[Wanted], states: &States, round: &Round) -> Vec<Option<KeptState>> {
     let asks = |number: usize| members[number].program.needs().asks();
-    let one = |(number, wanted): (usize, &Wanted)| {
-        states.valid(&wanted.key, wanted.state, wanted.lot, asks(number), round)
-    };
+    let one =
+        |(number, wanted): (usize, &Wanted)| states.valid(&wanted.key, wanted.state, wanted.lot, asks(number), round);
     let mut valid: Vec<Option<KeptState>> = wanted.par_iter().enumerate().map(one).collect();
     let quiet = states.len() == wanted.len() && !states.has_new_answers() && valid.iter().all(Option::is_some);
     if !quiet {
@@ -162,7 +160,8 @@ fn completed(
         let mut tree = derive(&noting);
         let used = std::mem::take(&mut tree.used);
         let seconds = start.elapsed().as_secs_f64();
-        let is_endless = tree.diagnostics.iter().any(|d| d.severity == Severity::Error && d.code.starts_with("cga::limit"));
+        let is_endless =
+            tree.diagnostics.iter().any(|d| d.severity == Severity::Error && d.code.starts_with("cga::limit"));
         endless.fetch_add(usize::from(is_endless), Ordering::Relaxed);
         let derived = each(number, tree);
         progress.step(1);

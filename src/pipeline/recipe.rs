@@ -5,11 +5,15 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use super::build::BuiltScene;
 use super::error::PipelineError;
+use super::record;
 use super::rules::{self, Programs};
+use crate::dataset::manifest::InputFile;
 use crate::diagnostics::Diagnostics;
 use crate::interpreter::FileAssets;
-use crate::source::{Access, AccessError, Looked, SourceMap};
+use crate::output::OutputError;
+use crate::source::{Access, AccessError, Looked, Overlay, SourceMap};
 use crate::spec;
 use crate::spec::render_spec::RenderSpec;
 
@@ -40,15 +44,25 @@ pub struct Recipe {
 
 /// Reads and checks a recipe and every rule file that it names.
 pub fn load_recipe(path: &Path, options: &RecipeOptions, sources: &mut SourceMap) -> Result<Recipe, PipelineError> {
+    load_recipe_over(path, options, &Overlay::default(), sources)
+}
+
+/// As [`load_recipe`], with texts in the place of files.
+pub fn load_recipe_over(
+    path: &Path,
+    options: &RecipeOptions,
+    overlay: &Overlay,
+    sources: &mut SourceMap,
+) -> Result<Recipe, PipelineError> {
     if let Some(looked) = &options.looked {
         looked.note(path);
     }
     let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    if !path.is_file() {
+    if !path.is_file() && overlay.get(path).is_none() {
         let source = std::io::Error::new(std::io::ErrorKind::NotFound, "no such file");
         return Err(AccessError::Io { path: path.display().to_string(), source }.into());
     }
-    let mut access = Access::new(folder)?;
+    let mut access = Access::new(folder)?.with_overlay(overlay);
     if let Some(looked) = &options.looked {
         access = access.noting(looked.clone());
     }
@@ -88,6 +102,11 @@ impl Recipe {
     /// Files that rules may read.
     pub fn assets(&self) -> FileAssets {
         FileAssets::new(self.readable.clone())
+    }
+
+    /// Every input by content, those that only deriving showed as far as scenes are built; sorted.
+    pub fn inputs(&self, sources: &SourceMap, built: &[BuiltScene]) -> Result<Vec<InputFile>, OutputError> {
+        record::inputs(self, sources, built).map_err(|source| OutputError::new(&self.path, source))
     }
 
     /// The command line's arguments as the manifest tells them: paths by their names alone.

@@ -82,6 +82,9 @@ mod tests {
         assert!(!second.is(&first));
         assert_eq!(second.bounds(), Some((DVec3::ZERO, DVec3::X)));
         assert_eq!(first.bounds(), Some((DVec3::X, DVec3::ONE)));
-        assert_eq!((first.digest(|_| [1; 32]), first.digest(|_| [2; 32]), second.digest(|_| [3; 32])), ([1; 32], [1; 32], [3; 32]));
+        assert_eq!(
+            (first.digest(|_| [1; 32]), first.digest(|_| [2; 32]), second.digest(|_| [3; 32])),
+            ([1; 32], [1; 32], [3; 32])
+        );
     }
 }

@@ -1,8 +1,10 @@
 //! In: a path written in a recipe or a rule file. Out: a real path inside the allowed folders, or a typed refusal.
 
+use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::{Component, Path, PathBuf};
+use std::sync::Arc;
 
 use super::looked::Looked;
 
@@ -26,6 +28,21 @@ pub const MOST_TEXT_BYTES: u64 = 64 << 20;
 /// Longest path that a text may name, bytes.
 const LONGEST_NAME: usize = 4096;
 
+/// Texts that stand for files by their real paths: what an editor shows and has not saved. A text may stand for a file
+/// that does not exist.
+#[derive(Clone, Debug, Default)]
+pub struct Overlay(Arc<BTreeMap<PathBuf, Arc<str>>>);
+
+impl Overlay {
+    pub fn new(texts: BTreeMap<PathBuf, Arc<str>>) -> Self {
+        Overlay(Arc::new(texts))
+    }
+
+    pub fn get(&self, real: &Path) -> Option<&Arc<str>> {
+        self.0.get(real)
+    }
+}
+
 /// The folders that a run may read: the tree of the file it was started with and those the command line adds.
 #[derive(Clone, Debug)]
 pub struct Access {
@@ -33,19 +50,20 @@ pub struct Access {
     roots: Vec<PathBuf>,
     /// Where every path that is looked for is written down.
     looked: Option<Looked>,
+    overlay: Overlay,
 }
 
 impl Access {
     /// Allows `root` and everything below it.
     pub fn new(root: &Path) -> Result<Self, AccessError> {
-        let mut access = Access { roots: Vec::new(), looked: None };
+        let mut access = Access { roots: Vec::new(), looked: None, overlay: Overlay::default() };
         access.allow(root)?;
         Ok(access)
     }
 
     /// The same folders; every path that is looked for from now on is written down.
     pub fn noting(&self, looked: Looked) -> Access {
-        Access { roots: self.roots.clone(), looked: Some(looked) }
+        Access { looked: Some(looked), ..self.clone() }
     }
 
     /// Writes down a path that is looked for, whether it exists or not, or a folder that is listed.
@@ -60,6 +78,11 @@ impl Access {
         let root = if root.as_os_str().is_empty() { Path::new(".") } else { root };
         self.roots.push(root.canonicalize().map_err(|source| io_error(root, source))?);
         Ok(())
+    }
+
+    /// Reads these texts in the place of files.
+    pub fn with_overlay(self, overlay: &Overlay) -> Self {
+        Access { overlay: overlay.clone(), ..self }
     }
 
     /// The first allowed folder.
@@ -86,16 +109,28 @@ impl Access {
         self.note(&joined);
         match joined.canonicalize() {
             Ok(real) if self.allows(&real) => Ok(real),
-            Err(source) if self.allows(&nearest_real(&joined)) => Err(io_error(&joined, source)),
-            Ok(_) | Err(_) => Err(AccessError::Outside(shortened(named))),
+            Err(source) => match nearest_real(&joined) {
+                real if !self.allows(&real) => Err(AccessError::Outside(shortened(named))),
+                real if self.overlay.get(&real).is_some() => Ok(real),
+                _ => Err(io_error(&joined, source)),
+            },
+            Ok(_) => Err(AccessError::Outside(shortened(named))),
         }
     }
 
     /// Resolves and reads a file of at most `most` bytes.
     pub fn read(&self, base: &Path, named: &str, most: u64) -> Result<(PathBuf, Vec<u8>), AccessError> {
         let path = self.resolve(base, named)?;
-        let bytes = read_regular(&path, most)?;
+        let bytes = self.read_real(&path, most)?;
         Ok((path, bytes))
+    }
+
+    /// Reads what [`Access::resolve`] found: at most `most` bytes.
+    pub fn read_real(&self, real: &Path, most: u64) -> Result<Vec<u8>, AccessError> {
+        match self.overlay.get(real) {
+            Some(text) => Ok(text.as_bytes().to_vec()),
+            None => read_regular(real, most),
+        }
     }
 }
 

@@ -8,7 +8,7 @@ mod looked;
 mod map;
 mod project;
 
-pub use access::{Access, AccessError, MOST_TEXT_BYTES, read_regular};
+pub use access::{Access, AccessError, MOST_TEXT_BYTES, Overlay, read_regular};
 pub use looked::Looked;
 pub use map::{Place, SourceFile, SourceId, SourceMap, Span};
 pub use project::Project;

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use mansard::diagnostics::{Diagnostics, json_line};
+use mansard::diagnostics::{Diagnostics, json_line, short_line};
 use mansard::pipeline::{PipelineError, load_recipe};
 use mansard::source::{Access, Project, SourceMap};
 use mansard::{cga, spec};
@@ -27,6 +27,7 @@ pub fn run(files: &[PathBuf], format: Format, options: &RecipeOptions, quiet: bo
     let all = all.sorted();
     match format {
         Format::Json => report::out(&all.iter().map(|d| json_line(d, &sources) + "\n").collect::<String>())?,
+        Format::Short => report::out(&all.iter().map(|d| short_line(d, &sources) + "\n").collect::<String>())?,
         Format::Text => report::print(&all, &sources, quiet),
     }
     match unread {

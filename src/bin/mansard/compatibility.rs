@@ -31,6 +31,7 @@ pub fn run(files: &[PathBuf], format: Format, options: &RecipeOptions) -> Result
     }
     told::out(&match format {
         Format::Text => all_text(&reports),
+        Format::Short => reports.iter().map(|(folder, reports)| folder_line(folder, reports)).collect(),
         Format::Json => json(&reports),
     })
 }
@@ -56,10 +57,14 @@ fn all_text(reports: &BTreeMap<PathBuf, Vec<Report>>) -> String {
     let mut out = String::new();
     for (folder, reports) in reports {
         reports.iter().for_each(|report| out.push_str(&text(report)));
-        let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
-        writeln!(out, "{}: {}", folder.display(), summary(reports)).expect("writing to a string cannot fail");
+        out.push_str(&folder_line(folder, reports));
     }
     out
+}
+
+fn folder_line(folder: &Path, reports: &[Report]) -> String {
+    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    format!("{}: {}\n", folder.display(), summary(reports))
 }
 
 /// One object per file, then one per folder, each on a line.

@@ -6,10 +6,12 @@ mod check;
 mod compatibility;
 mod cost;
 mod derive;
+mod diff;
 mod dump;
 mod explain;
 mod fmt;
 mod footprint;
+mod lsp;
 mod plan;
 mod progress;
 mod render;
@@ -18,6 +20,7 @@ mod reports;
 mod start_shapes;
 mod town;
 mod validate;
+mod verify;
 mod watch;
 
 use std::process::ExitCode;
@@ -56,6 +59,9 @@ fn main() -> ExitCode {
         Command::Cost { recipe, output, measure, options, work } => {
             cost::run(&recipe, &output, &measure, &options, &work, &reporter)
         }
+        Command::Diff(diff) => diff::run(&diff, &reporter),
+        Command::Verify(verify) => verify::run(&verify, &reporter),
+        Command::Lsp { stdio: _ } => lsp::run(),
         Command::Dump { phase, file } => dump::run(phase, &file, args.quiet),
         Command::Town { seed, buildings, output, name } => town::run(seed, buildings, &output, &name, &reporter),
     };

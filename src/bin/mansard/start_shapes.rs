@@ -44,7 +44,8 @@ fn values(list: &str) -> EdgeValues {
 
 /// Derives start shapes that see each other, in order; with several, paths begin with the number of the start shape.
 pub fn derive_all(program: &Program, starts: Vec<StartShape>, assets: &dyn Assets) -> Vec<ShapeTree> {
-    let members: Vec<Member> = starts.into_iter().map(|start| Member { program, start: start.into(), is_in: 1, sees: 1 }).collect();
+    let members: Vec<Member> =
+        starts.into_iter().map(|start| Member { program, start: start.into(), is_in: 1, sees: 1 }).collect();
     let mut trees = Batch::new(&members, assets, &Limits::default()).derive_all();
     if trees.len() > 1 {
         for (number, leaf) in

@@ -2,8 +2,9 @@
 //! not with these arguments (reference 1.14). They stay warnings: annotations never change the model.
 
 use super::instance::Tables;
+use super::names::Meaning;
 use super::types::{Types, element_of, is_element_of, type_name};
-use crate::cga::ast::{Annotation, AnnotationValue, DeclarationKind, DefinitionKind, Modifier};
+use crate::cga::ast::{Annotation, AnnotationValue, DeclarationKind, DefinitionKind, Modifier, Text};
 use crate::cga::codes;
 use crate::cga::program::{Constant, Type};
 use crate::diagnostics::{Diagnostic, Diagnostics, suggest};
@@ -71,6 +72,11 @@ static KNOWN: &[Known] = &[
     known("InPointCloud", &[Rule], Arguments::None, None),
     known("Out", &[Rule], Arguments::Own, None),
 ];
+
+/// The annotations that the language knows, without `@`.
+pub fn names() -> impl Iterator<Item = &'static str> {
+    KNOWN.iter().map(|row| row.name)
+}
 
 /// Checks one annotation in front of a declaration (none after the last one).
 pub fn check(annotation: &Annotation, on: Option<&DeclarationKind>, diagnostics: &mut Diagnostics) {
@@ -182,6 +188,10 @@ pub fn check_types(tables: &Tables<'_>, types: &Types, diagnostics: &mut Diagnos
                     }
                     (AnnotationValue::Name(from), Some("valuesAttr")) => {
                         let values = tables.attribute_named(entry.scope, from);
+                        if let Some(id) = values {
+                            let text = Text { text: from.clone(), span: arg.span };
+                            tables.refer(entry.scope, &text, Meaning::Value(tables.attributes[id.0 as usize].span));
+                        }
                         match values.map(|id| types.attributes[id.0 as usize]) {
                             None => warn(arg.span, format!("there is no attribute `{from}`")),
                             Some(Some(found)) if element_of(found) != element_of(kind) => {

@@ -3,6 +3,7 @@
 
 use super::callable::{bare_name, computed_word, found};
 use super::lower::Body;
+use super::names::Meaning;
 use super::types::type_names;
 use crate::cga::ast::Argument;
 use crate::cga::builtins::{Function, Operation, ParameterKind, Signature, Word, usage};
@@ -136,6 +137,7 @@ impl Body<'_, '_> {
             return Arg::ComputedWord(text);
         }
         if let Some(word) = given.word.filter(|w| kind.words.contains(w)) {
+            self.note(given.written.span, Meaning::Word(word));
             return Arg::Word(word, given.written.span);
         }
         let prefix = given.written.prefix;

@@ -3,6 +3,7 @@
 
 use super::instance::Value;
 use super::lower::Body;
+use super::names::Meaning;
 use super::types::type_name;
 use crate::cga::ast::{self, Argument, Text};
 use crate::cga::builtins::{Attr, Function, Word};
@@ -14,9 +15,11 @@ use crate::source::Span;
 impl Body<'_, '_> {
     pub fn call(&mut self, name: &Text, args: Option<&[Argument]>, span: Span) -> Expr {
         if let (None, true, Some(word)) = (args, self.in_selector, selector_word(&name.text)) {
+            self.note(name.span, Meaning::Word(word));
             return self.selector_word(word, span);
         }
         if let (None, Some(slot)) = (args, self.slots.iter().rposition(|(n, _)| *n == name.text)) {
+            self.note(name.span, Meaning::Local(self.slot_spans[slot]));
             return Expr { kind: ExprKind::Slot(slot as u32), value: self.slots[slot].1, span };
         }
         let given = args.unwrap_or_default();
@@ -29,13 +32,16 @@ impl Body<'_, '_> {
             if row.deprecated {
                 self.deprecated(name, row.attr.info().name);
             }
+            self.note(name.span, Meaning::BuiltinAttribute(row.name));
             return Expr { kind: ExprKind::BuiltinAttribute(row.attr), value: Some(row.kind), span };
         }
         if let Some(function) = Function::from_name(&name.text) {
+            self.note(name.span, Meaning::BuiltinFunction(function));
             return self.plain(|b| b.builtin_function(function, given, span));
         }
         if let Some(function) = Function::from_deprecated(&name.text) {
             self.deprecated(name, function.name());
+            self.note(name.span, Meaning::BuiltinFunction(function));
             return self.plain(|b| b.builtin_function(function, given, span));
         }
         self.unknown_value(name, given);
@@ -60,6 +66,7 @@ impl Body<'_, '_> {
         let Some(&first) = fitting.first() else {
             let builtin = Function::from_name(&name.text).is_some();
             if !candidates.is_empty() && !builtin {
+                self.refer(self.scope, name, self.tables.value_meaning(candidates[0]));
                 let counts: Vec<usize> = candidates.iter().map(|v| self.tables.value_arity(*v)).collect();
                 let own = || self::own_forms(&name.text, candidates.iter().map(|v| self.tables.value_parameters(*v)));
                 self.argument_count(&name.text, &counts, args.len(), span, own);
@@ -73,7 +80,9 @@ impl Body<'_, '_> {
             Value::Attribute(_) => true,
             Value::Function(id) => fits(&self.types.functions[id.0 as usize].0, &values),
         });
-        Some(match chosen.unwrap_or(first) {
+        let chosen = chosen.unwrap_or(first);
+        self.refer(self.scope, name, self.tables.value_meaning(chosen));
+        Some(match chosen {
             Value::Attribute(id) => match values.into_iter().next() {
                 Some(edge) => self.map_read(id, edge, span),
                 None => self.attribute_read(id, span),
@@ -267,6 +276,11 @@ static SELECTORS: &[Word] = &{
         W::Shape,
     ]
 };
+
+/// Words that select components.
+pub fn selector_words() -> &'static [Word] {
+    SELECTORS
+}
 
 pub fn selector_word(name: &str) -> Option<Word> {
     SELECTORS.iter().copied().find(|w| w.text() == name)

@@ -8,6 +8,7 @@ use std::sync::Arc;
 use super::callable::own_forms;
 use super::instance::{Instance, MAX_INSTANCES, Tables};
 use super::lower::Body;
+use super::names::Meaning;
 use crate::cga::ast::{self, Argument, ItemKind, Override, Text};
 use crate::cga::ast_walk::{self, Visitor};
 use crate::cga::codes;
@@ -104,12 +105,24 @@ impl Body<'_, '_> {
             self.diagnostics.push(Diagnostic { help, ..error });
             return Item::Discard;
         };
+        self.refer_import(prefix);
         let overrides = self.dynamic_values(child, overrides);
         let args: Vec<Expr> = args.iter().map(|arg| self.plain_argument(arg)).collect();
         let scope = self.tables.dynamic.get(&(self.scope, span)).copied().unwrap_or(child);
         match self.dynamic_rule(scope, name, &args) {
             Some(rule) => Item::Instantiate { import: child as u32, overrides, rule, args, span },
             None => Item::Discard,
+        }
+    }
+
+    /// Takes down the imports that a prefix names, one after the other.
+    fn refer_import(&self, prefix: &Text) {
+        let (outer, last) = match prefix.text.rsplit_once('.') {
+            Some((head, last)) => (self.tables.import_named(self.scope, head), last),
+            None => (Some(self.scope), &*prefix.text),
+        };
+        if let Some(meaning) = outer.and_then(|outer| self.tables.import_meaning(outer, last)) {
+            self.refer(self.scope, prefix, meaning);
         }
     }
 
@@ -131,6 +144,7 @@ impl Body<'_, '_> {
                 self.error(codes::BAD_OVERRIDE, name.span, message);
                 continue;
             };
+            self.note(name.span, Meaning::Value(self.tables.attributes[id.0 as usize].span));
             if out.iter().any(|(other, _)| *other == id) {
                 self.error(codes::BAD_OVERRIDE, name.span, format!("`{}` is overridden twice", name.text));
             }
@@ -163,6 +177,7 @@ impl Body<'_, '_> {
         let types = self.types;
         let chosen = fitting.into_iter().find(|id| super::callable::fits(&types.rules[id.0 as usize], args));
         let rule = chosen.unwrap_or(first);
+        self.refer(scope, name, Meaning::Rule(self.tables.rules[rule.0 as usize].span));
         self.check_arguments(&types.rules[rule.0 as usize], args);
         Some(rule)
     }

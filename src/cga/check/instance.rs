@@ -7,6 +7,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use super::load::LoadedFile;
+use super::names::{Meaning, Recorder};
 use super::style::InForce;
 use crate::cga::ast::{self, AnnotationValue, DeclarationKind, Definition, DefinitionKind, Import, Modifier, Text};
 use crate::cga::codes;
@@ -98,6 +99,8 @@ pub struct Tables<'a> {
     /// Instances whose rules are called so.
     pub called_dynamically: BTreeSet<usize>,
     pub diagnostics: Diagnostics,
+    /// Takes down what names mean, where an editor wants to know.
+    pub names: Option<Recorder>,
     /// Searches for meant names that are left: see [`Tables::meant`].
     searches: Cell<usize>,
     /// See [`crate::cga::program::Program::observes_tags`]; set while bodies are resolved.
@@ -118,6 +121,7 @@ impl<'a> Tables<'a> {
             dynamic: BTreeMap::new(),
             called_dynamically: BTreeSet::new(),
             diagnostics: Diagnostics::default(),
+            names: None,
             searches: Cell::new(MOST_SEARCHES),
             observes_tags: Cell::new(false),
             needs: Cell::default(),
@@ -282,6 +286,9 @@ impl<'a> Tables<'a> {
             let style = self.imported_style(target, import, file, style);
             let child = self.instantiate(target, prefix, style, all);
             self.instances[parent].children.insert(import.prefix.text.clone(), child);
+            if let Some(names) = &mut self.names {
+                names.import(parent, &import.prefix);
+            }
             self.connect(parent, child, import);
             hide.into_iter().for_each(|annotation| self.hide(child, annotation));
         }
@@ -318,7 +325,10 @@ impl<'a> Tables<'a> {
                 _ => None,
             };
             match found {
-                Some(id) => self.attributes[id.0 as usize].annotations.hidden = true,
+                Some(id) => {
+                    self.attributes[id.0 as usize].annotations.hidden = true;
+                    self.note(arg.span, Meaning::Value(self.attributes[id.0 as usize].span));
+                }
                 None => {
                     let message = "the imported file has no such attribute";
                     self.diagnostics.push(Diagnostic::warning(codes::ANNOTATION_ARGUMENT, arg.span, message));

@@ -7,6 +7,7 @@ use super::callable::{bare_name, computed_word, fits};
 use super::deprecated::REMOVED;
 use super::instance::Value;
 use super::lower::Body;
+use super::names::Meaning;
 use crate::cga::ast::{self, Argument, Block, ItemKind, Part, SectionBlock, SectionPart, Text};
 use crate::cga::builtins::{Attr, Operation, Word};
 use crate::cga::codes;
@@ -20,6 +21,7 @@ use crate::source::Span;
 impl Body<'_, '_> {
     pub fn item(&mut self, item: &ast::Item) -> Item {
         let span = item.span;
+        self.block_name(&item.kind);
         match &item.kind {
             ItemKind::Group(body) => Item::Group(Box::new(self.successor(body, false))),
             ItemKind::Nil => Item::Discard,
@@ -46,6 +48,24 @@ impl Body<'_, '_> {
         }
     }
 
+    /// Takes down the name of an operation with a block and the word of its mode.
+    fn block_name(&self, kind: &ItemKind) {
+        let (name, mode) = match kind {
+            ItemKind::Split { name, .. } | ItemKind::Selectors { name, .. } | ItemKind::Scatter { name, .. } => {
+                (name, None)
+            }
+            ItemKind::Perimeter { name, .. } => (name, None),
+            ItemKind::Inline { name, mode, .. } | ItemKind::Boolean { name, mode, .. } => (name, mode.as_ref()),
+            ItemKind::Group(_) | ItemKind::Nil | ItemKind::Plain { .. } | ItemKind::Dynamic { .. } => return,
+        };
+        if let Some(operation) = Operation::from_name(&name.text) {
+            self.note(name.span, Meaning::Operation(operation));
+        }
+        if let Some((mode, word)) = mode.and_then(|mode| Some((mode, Word::from_text(&mode.text)?))) {
+            self.note(mode.span, Meaning::Word(word));
+        }
+    }
+
     /// A name in a sequence: a rule of the files, a built-in operation, or a leaf.
     fn symbol(&mut self, name: &Text, args: Option<&[Argument]>, terminal: bool, span: Span) -> Item {
         let given = args.unwrap_or_default();
@@ -57,13 +77,19 @@ impl Body<'_, '_> {
             return item;
         }
         if let Some(operation) = Operation::from_name(&name.text) {
+            self.note(name.span, Meaning::Operation(operation));
             return self.operation(operation, given, span);
         }
         if let Some(operation) = Operation::from_deprecated(&name.text) {
             self.deprecated(name, operation.name());
+            self.note(name.span, Meaning::Operation(operation));
             return self.operation(operation, given, span);
         }
         let args = given.iter().map(|arg| self.plain_argument(arg)).collect();
+        match self.tables.rules_named(self.scope, &name.text).first() {
+            Some(other) => self.refer(self.scope, name, Meaning::Rule(self.tables.rules[other.0 as usize].span)),
+            None => self.note(name.span, Meaning::Leaf),
+        }
         if !terminal {
             self.undefined(name, given);
         }
@@ -83,6 +109,7 @@ impl Body<'_, '_> {
         let types = self.types;
         let chosen = fitting.into_iter().find(|id| fits(&types.rules[id.0 as usize], &args));
         let rule = chosen.unwrap_or(first);
+        self.refer(self.scope, name, Meaning::Rule(self.tables.rules[rule.0 as usize].span));
         self.check_arguments(&types.rules[rule.0 as usize], &args);
         Some(Item::Call { rule, args, span })
     }
@@ -179,6 +206,7 @@ impl Body<'_, '_> {
             Value::Function(_) => None,
         });
         if let Some(id) = attribute {
+            self.refer(self.scope, name, Meaning::Value(self.tables.attributes[id.0 as usize].span));
             if self.tables.attributes[id.0 as usize].is_const {
                 self.error(codes::READ_ONLY, name.span, format!("`{}` is a constant", name.text));
                 return None;
@@ -200,6 +228,7 @@ impl Body<'_, '_> {
             self.diagnostics.push(Diagnostic { help, ..diagnostic });
             return None;
         };
+        self.note(name.span, Meaning::BuiltinAttribute(row.name));
         if row.deprecated {
             self.deprecated(name, row.attr.info().name);
         }

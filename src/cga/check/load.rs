@@ -8,12 +8,14 @@ use crate::cga::codes;
 use crate::cga::parse::parse;
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::parsing::decode;
-use crate::source::{Access, AccessError, MOST_TEXT_BYTES, Project, SourceFile, SourceMap, Span, read_regular};
+use crate::source::{Access, AccessError, MOST_TEXT_BYTES, Project, SourceFile, SourceMap, Span};
 
 /// A parsed file.
 pub struct LoadedFile {
     pub ast: Ast,
     pub text: Arc<str>,
+    /// Its real path; empty for a text without one.
+    pub path: PathBuf,
     /// Folder that holds it.
     pub folder: PathBuf,
     /// Index of the file each import statement leads to, in the order of the statements; none if it failed.
@@ -92,7 +94,13 @@ impl<'s> Loader<'s> {
                 _ => None,
             })
             .collect();
-        self.files.push(LoadedFile { ast, text: file.text.clone(), folder: folder.clone(), imports: Vec::new() });
+        self.files.push(LoadedFile {
+            ast,
+            text: file.text.clone(),
+            path: path.clone(),
+            folder: folder.clone(),
+            imports: Vec::new(),
+        });
         self.paths.push(path);
         self.open.push(index);
         for import in imports {
@@ -128,7 +136,7 @@ impl<'s> Loader<'s> {
             }
             return Some(known);
         }
-        match read_regular(&path, MOST_TEXT_BYTES) {
+        match access.read_real(&path, MOST_TEXT_BYTES) {
             Ok(bytes) => {
                 let name = path.strip_prefix(access.root()).unwrap_or(&path).display().to_string();
                 Some(self.file(path, &name, &bytes))

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use super::annotation_rules;
 use super::instance::{Default, Tables, Value};
 use super::lint;
+use super::names::Meaning;
 use super::order;
 use super::types::Types;
 use crate::cga::ast::{self, Text};
@@ -28,6 +29,8 @@ pub struct Body<'c, 'a> {
     pub attribute: Option<AttributeId>,
     /// Name and type of each slot: parameters, then locals.
     pub slots: Vec<(Arc<str>, Option<Type>)>,
+    /// Where they are declared.
+    pub slot_spans: Vec<Span>,
     pub parameters: usize,
     pub draws: u32,
     /// Names are selectors first.
@@ -256,6 +259,7 @@ impl<'c, 'a> Body<'c, 'a> {
             scope,
             attribute: None,
             slots: Vec::new(),
+            slot_spans: Vec::new(),
             parameters: 0,
             draws: 0,
             in_selector: false,
@@ -266,6 +270,20 @@ impl<'c, 'a> Body<'c, 'a> {
 
     pub fn error(&mut self, code: &'static str, span: Span, message: impl Into<String>) {
         self.diagnostics.push(Diagnostic::error(code, span, message));
+    }
+
+    /// Takes down what a name means, in the round that reports.
+    pub fn refer(&self, scope: usize, name: &Text, meaning: Meaning) {
+        if !self.quiet {
+            self.tables.refer(scope, name, meaning);
+        }
+    }
+
+    /// As [`Body::refer`], of a name of the language.
+    pub fn note(&self, span: Span, meaning: Meaning) {
+        if !self.quiet {
+            self.tables.note(span, meaning);
+        }
     }
 
     fn parameters(&mut self, names: &[Text], known: &[Option<Type>]) {
@@ -294,6 +312,7 @@ impl<'c, 'a> Body<'c, 'a> {
             );
         }
         self.slots.push((name.text.clone(), kind));
+        self.slot_spans.push(name.span);
     }
 
     fn found_parameters(&self) -> Vec<Parameter> {

@@ -19,6 +19,7 @@ mod item;
 mod lint;
 mod load;
 mod lower;
+mod names;
 mod order;
 mod overrides;
 mod selector;
@@ -34,7 +35,10 @@ use std::path::Path;
 use super::program::Program;
 use crate::diagnostics::Diagnostics;
 use crate::source::{Access, SourceFile, SourceMap};
+pub use annotation_rules::names as annotation_names;
+pub use callable::selector_words;
 pub use lint::release;
+pub use names::{Index, IndexedFile, Meaning, Name, index};
 
 /// What a program is compiled for.
 #[derive(Clone, Debug, Default)]
@@ -85,49 +89,55 @@ pub fn check(path: &Path, access: &Access, sources: &mut SourceMap) -> Diagnosti
     on_big_stack(|| {
         let mut loader = load::Loader::new(Some(access), sources);
         loader.main_file(path, access);
-        every_style(&loader.finish())
+        every_style_noting(&loader.finish(), None).1
     })
 }
 
 fn finish(loader: load::Loader<'_>, options: &CompileOptions) -> (Option<Program>, Diagnostics) {
     let loaded = loader.finish();
-    let (program, diagnostics) = in_style(&loaded, options.style.as_deref());
+    let (program, diagnostics) = in_style(&loaded, options.style.as_deref(), None);
     let diagnostics = diagnostics.sorted();
     (program.filter(|_| !diagnostics.has_errors()), diagnostics)
 }
 
-fn in_style(loaded: &load::Loaded, style: Option<&str>) -> (Option<Program>, Diagnostics) {
+fn in_style(
+    loaded: &load::Loaded,
+    style: Option<&str>,
+    names: Option<&names::Recorder>,
+) -> (Option<Program>, Diagnostics) {
     let mut diagnostics = loaded.diagnostics.clone();
     let broken = diagnostics.has_errors();
     lint::old_versions(&loaded.files, &mut diagnostics);
     let mut tables = instance::Tables::new(&loaded.files);
+    tables.names = names.cloned();
     tables.instantiate_main(style);
     let program = lower::lower(tables, &mut diagnostics, broken);
     (program, diagnostics)
 }
 
-/// The default style and those of the main file. A rule is unused only if no style that has it uses it.
-fn every_style(loaded: &load::Loaded) -> Diagnostics {
+/// The default style and those of the main file. A rule is unused only if no style that has it uses it. Gives the
+/// default style's program, if nothing in it is wrong.
+fn every_style_noting(loaded: &load::Loaded, names: Option<&names::Recorder>) -> (Option<Program>, Diagnostics) {
     let styles = loaded.files.first().map_or_else(Vec::new, |file| style::names(&file.ast));
-    let (default, of_default) = in_style(loaded, None);
+    let (default, of_default) = in_style(loaded, None, names);
     let mut all = of_default.clone();
     let mut found: Vec<(Program, Diagnostics)> = Vec::new();
     for name in styles {
-        let (program, diagnostics) = in_style(loaded, Some(&name));
+        let (program, diagnostics) = in_style(loaded, Some(&name), names);
         if let (Some(default), Some(program)) = (&default, &program) {
             style::kept_types(default, program, &mut all);
         }
         all.extend(diagnostics.clone());
         found.extend(program.map(|program| (program, diagnostics)));
     }
-    found.extend(default.map(|program| (program, of_default)));
+    found.extend(default.clone().map(|program| (program, of_default)));
     all.retain(|d| {
         let used = |(program, own): &(Program, Diagnostics)| {
             program.rules.iter().any(|rule| rule.span == d.span) && !own.iter().any(|o| o == d)
         };
         d.code != super::codes::UNUSED_RULE || !found.iter().any(used)
     });
-    all.sorted()
+    (default, all.sorted())
 }
 
 fn on_big_stack<T: Send>(work: impl FnOnce() -> T + Send) -> T {

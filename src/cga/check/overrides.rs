@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use super::instance::{AttributeEntry, Default, RuleEntry, Tables, Value};
+use super::names::Meaning;
 use crate::cga::ast::{self, Expr, ExprKind, Import, Override, Text};
 use crate::cga::codes;
 use crate::cga::program::{Annotations, AttributeId};
@@ -54,7 +55,9 @@ impl<'a> Tables<'a> {
             Value::Attribute(id) if !self.attributes[id.0 as usize].is_const => Some(*id),
             _ => None,
         });
-        if found.is_none() {
+        if let Some(id) = found {
+            self.note(name.span, Meaning::Value(self.attributes[id.0 as usize].span));
+        } else {
             let message = format!("the imported file has no attribute `{}`", name.text);
             let names = self.instances[child].values.keys().map(|k| &**k);
             let help = suggest(&name.text, names).map(|near| format!("did you mean `{near}`?"));
@@ -80,6 +83,8 @@ impl<'a> Tables<'a> {
         };
         let old = &self.rules[id.0 as usize];
         let original = old.clone();
+        self.note(name.span, Meaning::Rule(original.span));
+        self.link(name.span, original.span);
         if old.parameters.len() != parameters.len() {
             let message =
                 format!("`{}` takes {} parameters, not {}", name.text, old.parameters.len(), parameters.len());
@@ -115,6 +120,7 @@ impl<'a> Tables<'a> {
                 })
             };
             let (Some(outer), Some(inner)) = (attribute(self, parent), attribute(self, child)) else { continue };
+            self.link(self.attributes[outer.0 as usize].span, self.attributes[inner.0 as usize].span);
             let dotted = format!("{}.{name}", import.prefix.text);
             if mentions(&self.attributes[outer.0 as usize].definition.value, &dotted) {
                 self.keep_own_default(inner);
@@ -156,7 +162,12 @@ impl<'a> Tables<'a> {
         let same = self.rules_named(child, name).iter().copied();
         match same.into_iter().find(|id| self.rules[id.0 as usize].parameters.len() == rule.parameters.len()) {
             Some(id) if self.rules[id.0 as usize].scope == instance => self.duplicate(rule.name.span, &rule.name.text),
-            Some(id) => self.rules[id.0 as usize] = entry,
+            Some(id) => {
+                let replaced = self.rules[id.0 as usize].span;
+                self.refer(instance, &rule.name, Meaning::Rule(replaced));
+                self.link(rule.name.span, replaced);
+                self.rules[id.0 as usize] = entry;
+            }
             None => {
                 let id = self.push_rule(entry);
                 self.instances[child].rules.entry(name.into()).or_default().push(id);

@@ -15,6 +15,7 @@ use crate::diagnostics::Diagnostic;
 impl Builder {
     pub fn declaration(&mut self, pair: Pair<'_, Rule>) {
         let unit = pair.into_inner().next().expect("a declaration has one unit");
+        let span = self.span(&unit);
         let kind = match unit.as_rule() {
             Rule::annotation => {
                 let annotation = self.annotation(unit);
@@ -31,7 +32,7 @@ impl Builder {
             other => unreachable!("{other:?} is no unit of the grammar"),
         };
         let annotations = std::mem::take(&mut self.pending);
-        self.ast.declarations.push(Declaration { annotations, kind });
+        self.ast.declarations.push(Declaration { annotations, kind, span });
     }
 
     fn version(&mut self, pair: Pair<'_, Rule>) {

@@ -11,7 +11,7 @@ mod lexer;
 mod successors;
 #[cfg(test)]
 mod tests;
-pub(super) mod tokens;
+pub mod tokens;
 mod wording;
 
 use std::rc::Rc;
@@ -38,7 +38,7 @@ mod grammar {
 }
 
 pub(super) use grammar::{Grammar, Rule};
-pub(super) use lexer::lex;
+pub use lexer::lex;
 
 /// Parses a whole file. The tree holds every declaration that could be read.
 ///
@@ -58,6 +58,8 @@ pub fn parse(file: &SourceFile) -> (Ast, Diagnostics) {
         let Err(error) = Grammar::parse(Rule::one_declaration, &tokens.letters[at..]) else { break };
         let problem = explain(&Reading { file, tokens: &tokens, first: at }, &error);
         builder.diagnostics.push(problem.diagnostic);
+        // They stood in front of what could not be read.
+        builder.pending.clear();
         match problem.unclosed_until {
             Some(offset) => {
                 tokens = Rc::new(lex(text, offset));

@@ -28,7 +28,8 @@ pub struct Panel {
     pub pictures: Vec<(Picture, String)>,
 }
 
-const STYLE: &str = "\
+/// Of pages that need no other file.
+pub const STYLE: &str = "\
 :root{color-scheme:light dark;--back:#fbfbfa;--ink:#1c2330;--soft:#5b6675;--line:#d9dde4;--band:#f1f3f6;--mark:#c2410c}\
 @media(prefers-color-scheme:dark){:root{--back:#12161d;--ink:#e5e9f0;--soft:#9aa7b8;--line:#303947;--band:#1a202a;--mark:#fb923c}}\
 *{box-sizing:border-box}body{margin:0;background:var(--back);color:var(--ink);font:16px/1.5 system-ui,sans-serif}\
@@ -115,17 +116,22 @@ fn presets(out: &mut String, sweep: &Sweep, about: &About) {
     for metric in &metrics {
         let _ = write!(out, "<th>{}</th>", short(*metric));
     }
-    out.push_str("</tr>");
-    for row in rows {
+    out.push_str("<th>frontier</th></tr>");
+    let joint = sweep.joint_frontier();
+    let on = sweep.rows.iter().zip(joint).filter(|(row, _)| row.kind == Kind::Preset).map(|(_, on)| on);
+    for (row, on) in rows.into_iter().zip(on) {
         let class = if row.value == about.own { " class=\"own\"" } else { "" };
         let _ = write!(out, "<tr{class}><td>{}</td>{}", escape(&row.value), times(row));
         for metric in &metrics {
             let text = row.errors.get(*metric).map_or("–".to_owned(), |value| metric.text(value));
             let _ = write!(out, "<td>{text}</td>");
         }
-        out.push_str("</tr>");
+        let _ = write!(out, "<td{}>{}</td></tr>", if on { " class=\"on\"" } else { "" }, if on { "on" } else { "off" });
     }
-    out.push_str("</table></div>");
+    out.push_str(
+        "</table></div><p class=\"soft\">On the frontier: no other setting measured is faster beyond the spread of times, \
+         better in one figure and worse in none.</p>",
+    );
 }
 
 fn short(metric: Metric) -> &'static str {

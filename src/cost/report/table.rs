@@ -16,6 +16,7 @@ pub fn header() -> Vec<String> {
         .chain(["wrong_label_pixels".to_owned(), "truth_error".to_owned()])
         .chain(alone)
         .chain(frontier)
+        .chain(["frontier".to_owned()])
         .collect()
 }
 
@@ -27,7 +28,8 @@ fn column(metric: Metric) -> String {
 pub fn to_csv(sweep: &Sweep) -> Vec<u8> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     writer.write_record(header()).expect("memory takes everything");
-    let frontiers = Metric::ALL.map(|metric| sweep.frontier(metric));
+    let mut frontiers = Metric::ALL.map(|metric| sweep.frontier(metric)).to_vec();
+    frontiers.push(sweep.joint_frontier());
     for (number, row) in sweep.rows.iter().enumerate() {
         let q = &row.setting.quality;
         let samples = q.supersample * q.supersample;

@@ -26,8 +26,14 @@ enum Kind {
     /// What the host may give is another matter now.
     Declaration,
     /// `old` is the number in the old program.
-    Default { old: u32, takes_host: bool, is_literal: bool },
-    New { is_literal: bool },
+    Default {
+        old: u32,
+        takes_host: bool,
+        is_literal: bool,
+    },
+    New {
+        is_literal: bool,
+    },
 }
 
 impl AttributeChanges {

@@ -91,7 +91,8 @@ impl Questions {
 /// Hash of all files of which geometry and materials are made.
 fn solid(files: &mut FileTable, read: &[PathBuf]) -> Answer {
     let plain = ["png", "jpg", "jpeg", "tif", "tiff", "tga", "bmp", "txt", "csv"];
-    let is_plain = |path: &Path| path.extension().is_some_and(|e| plain.iter().any(|plain| e.eq_ignore_ascii_case(plain)));
+    let is_plain =
+        |path: &Path| path.extension().is_some_and(|e| plain.iter().any(|plain| e.eq_ignore_ascii_case(plain)));
     let mut hash = Sha256::new();
     for path in read.iter().filter(|path| !is_plain(path)) {
         hash.update(format!("{path:?} {:?}", files.content(path)));
@@ -99,14 +100,7 @@ fn solid(files: &mut FileTable, read: &[PathBuf]) -> Answer {
     hash.finalize().into()
 }
 
-fn answer(
-    kind: Kind,
-    folder: &Path,
-    name: &str,
-    assets: &dyn Assets,
-    files: &mut FileTable,
-    solid: Answer,
-) -> Answer {
+fn answer(kind: Kind, folder: &Path, name: &str, assets: &dyn Assets, files: &mut FileTable, solid: Answer) -> Answer {
     let located = || assets.locate(folder, name);
     let mut content = |path: Option<Arc<str>>| path.map(|path| (files.content(Path::new(&*path)), path));
     let text = match kind {

@@ -106,7 +106,14 @@ impl States {
 
     /// The derivation of a state, if it would come out the same. Of programs that ask about other shapes only the text is
     /// compared here: whether the others are the same is for the caller to know.
-    pub fn valid(&self, key: &StateKey, new: &PreparedState, lot: &Arc<Lot>, asks: bool, round: &Round) -> Option<KeptState> {
+    pub fn valid(
+        &self,
+        key: &StateKey,
+        new: &PreparedState,
+        lot: &Arc<Lot>,
+        asks: bool,
+        round: &Round,
+    ) -> Option<KeptState> {
         let kept = self.kept.get(key)?;
         if kept.program != new.program || !Arc::ptr_eq(&kept.lot, lot) || kept.asked.meets(&self.answered_anew) {
             return None;

@@ -6,9 +6,9 @@ use crate::spec::ast::{Block, Property};
 use crate::spec::render_spec::{BudgetSpec, FixedKnobs, QualitySpec};
 use crate::spec::units::Dimension;
 
-/// Named sets of knobs.
+/// Named sets of knobs, on the frontier of time and errors in the scenes of `docs/accuracy.md`.
 pub const PRESETS: [(&str, QualitySpec); 3] = [
-    ("draft", knobs(1, 2048, 1, 8, 512)),
+    ("draft", knobs(1, 1024, 1, 8, 512)),
     ("standard", knobs(2, 4096, 4, 24, 1024)),
     ("high", knobs(4, 8192, 8, 64, 2048)),
 ];

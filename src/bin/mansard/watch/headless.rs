@@ -77,7 +77,8 @@ fn picture(
 
 fn write(path: &Path, frame: &mut Frame) -> Result<(), String> {
     let Image { pixels, .. } = frame.images.pop().ok_or("nothing was drawn")?;
-    let bytes = mansard::dataset::encode_png((frame.width, frame.height), &pixels).map_err(|error| error.to_string())?;
+    let bytes =
+        mansard::dataset::encode_png((frame.width, frame.height), &pixels).map_err(|error| error.to_string())?;
     write_bytes(path, &bytes).map_err(|error| error.to_string())
 }
 

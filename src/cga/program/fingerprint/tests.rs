@@ -58,7 +58,9 @@ fn only_what_is_edited_changes() {
 #[test]
 fn what_items_read_is_known() {
     let prints = prints(RULES);
-    let names = |reads: &BTreeSet<AttributeId>| reads.iter().map(|id| prints.attributes[id.0 as usize].name.to_string()).collect::<Vec<_>>();
+    let names = |reads: &BTreeSet<AttributeId>| {
+        reads.iter().map(|id| prints.attributes[id.0 as usize].name.to_string()).collect::<Vec<_>>()
+    };
     assert_eq!(names(&prints.rules[0].reads), ["height"]);
     assert_eq!(names(&prints.attributes[1].reads), ["height"]);
     assert!(prints.rules[1].reads.is_empty());

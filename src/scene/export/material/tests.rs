@@ -28,7 +28,15 @@ fn scene(faces: &[Face], material: Material) -> Scene {
     faces.iter().for_each(|face| builder.face(&mesh, face, &material, DVec3::ZERO));
     let (mesh, materials) = builder.finish();
     let class = SceneClass::Building;
-    let object = SceneObject { feature: None, instance: 1, class, presence: Presence::Both, change: 0, level: 0, mesh: mesh.into() };
+    let object = SceneObject {
+        feature: None,
+        instance: 1,
+        class,
+        presence: Presence::Both,
+        change: 0,
+        level: 0,
+        mesh: mesh.into(),
+    };
     let image = |side: u32, pixel: [u8; 4]| Arc::new(RgbaImage::from_pixel(side, side, Rgba(pixel)));
     let textures = vec![
         ("metal".into(), image(1, [1, 2, 30, 255])),
