@@ -4,7 +4,7 @@
 
 use std::collections::BTreeMap;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::writer::WrittenFile;
 use crate::geodata::ledger::Ledger;
@@ -18,6 +18,8 @@ pub struct Manifest {
     /// Text that must accompany everything made from the map.
     pub attribution: String,
     pub dataset: String,
+    /// Name of the recipe's file; it is among the inputs.
+    pub recipe: String,
     /// Values of the recipe's arguments given on the command line, without paths' folders.
     pub arguments: BTreeMap<String, String>,
     /// Recipe, rules, maps, elevation, textures and assets.
@@ -47,7 +49,11 @@ pub struct InputFile {
     pub role: &'static str,
     /// As the recipe or rule file names it.
     pub name: String,
+    /// Where it lies below the recipe's folder, with `/`; absent for what lies elsewhere or comes with the program.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub path: Option<String>,
     pub bytes: u64,
+    /// Of texts as they were decoded, of other files as they lie on disk.
     pub sha256: String,
 }
 
@@ -94,7 +100,7 @@ pub struct BudgetRecord {
 }
 
 /// Knobs as recipes write them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ChosenRecord {
     pub antialiasing: u32,
     pub shadow_map: u32,
@@ -155,6 +161,8 @@ pub struct ViewRecord {
     pub acquisitions: Vec<AcquisitionRecord>,
     /// Image name → file.
     pub images: BTreeMap<String, WrittenFile>,
+    /// Image name → what it holds, as recipes name it: `colour`, `class`, `mask`, `level`, `instance`, `depth`.
+    pub outputs: BTreeMap<String, &'static str>,
     /// Image name → mean standard error of its linear light, of images that the reference made.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub standard_errors: BTreeMap<String, f64>,

@@ -26,7 +26,7 @@ pub enum DatasetError {
 }
 
 /// A file of the dataset, by its path below the dataset's folder.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
 pub struct WrittenFile {
     pub path: String,
     pub sha256: String,

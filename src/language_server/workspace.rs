@@ -36,7 +36,11 @@ pub struct Settings {
 impl Settings {
     pub fn recipe_options(&self) -> RecipeOptions {
         let pair = |text: &String| text.split_once('=').map(|(a, b)| (a.to_owned(), b.to_owned()));
-        RecipeOptions { arguments: self.set.iter().filter_map(pair).collect(), allow: self.allow.clone(), looked: None }
+        RecipeOptions {
+            arguments: self.set.iter().filter_map(pair).collect(),
+            allow: self.allow.clone(),
+            ..RecipeOptions::default()
+        }
     }
 }
 

@@ -6,7 +6,7 @@ use super::derivation::{Derivation, derive_features};
 use super::error::PipelineError;
 use super::memory::Memory;
 use super::place::{Place, Site, site};
-use super::preparation::{PreparedScene, prepare};
+use super::preparation::{Assignment, PreparedScene, prepare};
 use super::progress::Progress;
 use super::recipe::Recipe;
 use super::record::{asset_files, geometry_hash, report_records};
@@ -38,6 +38,8 @@ pub struct BuiltScene {
     pub terrain: Arc<Terrain>,
     pub record: SceneRecord,
     pub reports: SceneReports,
+    /// Of every feature, in the order of their ids.
+    pub assignments: Vec<Assignment>,
     /// Only where mesh checks were asked for.
     pub validation: Option<Validation>,
     /// Textures and geometry files that rules named.
@@ -265,7 +267,8 @@ fn put_together(
     );
     let (frame, terrain) = (*frame, terrain.clone());
     let (diagnostics, prints) = (derived.diagnostics, derived.prints);
-    Ok(BuiltScene { scene, frame, terrain, record, reports, validation, files, diagnostics, prints })
+    let assignments = prepared.assignments.clone();
+    Ok(BuiltScene { scene, frame, terrain, record, reports, assignments, validation, files, diagnostics, prints })
 }
 
 #[expect(clippy::too_many_arguments, reason = "the fields of one record")]

@@ -10,7 +10,7 @@ use super::memory::Memory;
 use super::place::Site;
 use super::recipe::Recipe;
 use crate::cga::program::Program;
-use crate::geodata::feature::Feature;
+use crate::geodata::feature::{Feature, FeatureClass, FeatureId};
 use crate::geodata::ledger::{Ledger, Outcome};
 use crate::geodata::tags::{self, Defaults, TagValue};
 use crate::interpreter::host::{EdgeAttribute, EdgeValues};
@@ -42,10 +42,22 @@ pub struct PreparedState {
     pub start: Arc<StartShape>,
 }
 
+/// What a recipe makes of a feature.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Assignment {
+    pub feature: FeatureId,
+    pub class: FeatureClass,
+    /// Index into the scene's rules.
+    pub rule: Option<usize>,
+    pub change: Option<Changed>,
+}
+
 /// All features of a scene.
 pub struct PreparedScene {
     /// In the order of the features.
     pub features: Vec<Prepared>,
+    /// Likewise.
+    pub assignments: Vec<Assignment>,
     /// Assumptions only.
     pub ledger: Ledger,
     /// Changes as they were drawn.
@@ -135,7 +147,14 @@ impl<'a> Preparation<'a> {
         for feature in &mut prepared {
             ledger.merge(std::mem::take(&mut feature.ledger));
         }
-        PreparedScene { features: prepared, ledger, drawn }
+        let of = |(number, feature): (usize, &Feature)| Assignment {
+            feature: feature.id,
+            class: feature.class,
+            rule: assigned[number],
+            change: touched[number],
+        };
+        let assignments = features.iter().enumerate().map(of).collect();
+        PreparedScene { features: prepared, assignments, ledger, drawn }
     }
 
     fn feature(&self, number: usize, rule: Option<usize>, touched: Option<Changed>) -> Prepared {

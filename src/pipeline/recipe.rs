@@ -5,10 +5,14 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use super::build::BuiltScene;
 use super::error::PipelineError;
+use super::record;
 use super::rules::{self, Programs};
+use crate::dataset::manifest::InputFile;
 use crate::diagnostics::Diagnostics;
 use crate::interpreter::FileAssets;
+use crate::output::OutputError;
 use crate::source::{Access, AccessError, Looked, Overlay, SourceMap};
 use crate::spec;
 use crate::spec::render_spec::RenderSpec;
@@ -98,6 +102,11 @@ impl Recipe {
     /// Files that rules may read.
     pub fn assets(&self) -> FileAssets {
         FileAssets::new(self.readable.clone())
+    }
+
+    /// Every input by content, those that only deriving showed as far as scenes are built; sorted.
+    pub fn inputs(&self, sources: &SourceMap, built: &[BuiltScene]) -> Result<Vec<InputFile>, OutputError> {
+        record::inputs(self, sources, built).map_err(|source| OutputError::new(&self.path, source))
     }
 
     /// The command line's arguments as the manifest tells them: paths by their names alone.

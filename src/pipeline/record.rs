@@ -18,7 +18,7 @@ use crate::plan::demand::{Projection, ViewDemand};
 use crate::plan::effects::{Ambient, Bands, BitDepth, Look, Sensor};
 use crate::plan::sun::to_angles;
 use crate::scene::{Scene, TriMesh};
-use crate::source::SourceMap;
+use crate::source::{Access, SourceMap};
 use crate::spec::render_spec::{FileRef, Origin};
 
 /// Sums of `report` over features, by name; by name and type where there are several types.
@@ -41,6 +41,7 @@ pub fn inputs(recipe: &Recipe, sources: &SourceMap, built: &[BuiltScene]) -> std
         .map(|file| InputFile {
             role: if file.name.ends_with(".cga") { "rules" } else { "recipe" },
             name: base_name(&file.name),
+            path: below_root(Path::new(&*file.name), &recipe.access),
             bytes: file.text.len() as u64,
             sha256: sha256(file.text.as_bytes()),
         })
@@ -59,19 +60,31 @@ pub fn inputs(recipe: &Recipe, sources: &SourceMap, built: &[BuiltScene]) -> std
 
 fn input(role: &'static str, file: &FileRef, recipe: &Recipe) -> std::io::Result<InputFile> {
     let path = file.resolve(&recipe.access).map_err(std::io::Error::other)?;
-    hash_file(role, base_name(&file.written), &path)
+    hash_file(role, base_name(&file.written), &path, &recipe.access)
 }
 
 /// Geometry files that rules inserted.
 pub fn asset_files(assets: &FileAssets) -> std::io::Result<Vec<InputFile>> {
-    let hash = |path: PathBuf| hash_file("asset", base_name(&path.to_string_lossy()), &path);
+    let hash = |path: PathBuf| hash_file("asset", base_name(&path.to_string_lossy()), &path, assets.access());
     assets.files().into_iter().filter(|path| path.is_file()).map(hash).collect()
 }
 
-fn hash_file(role: &'static str, name: String, path: &Path) -> std::io::Result<InputFile> {
+fn hash_file(role: &'static str, name: String, path: &Path, access: &Access) -> std::io::Result<InputFile> {
+    let (bytes, sha256) = file_sha256(path)?;
+    Ok(InputFile { role, name, path: below_root(path, access), bytes, sha256 })
+}
+
+/// Length and SHA-256 of a file of any length.
+pub fn file_sha256(path: &Path) -> std::io::Result<(u64, String)> {
     let (bytes, hash) = files::hash_file(path)?;
-    let sha256 = hash.iter().map(|b| format!("{b:02x}")).collect();
-    Ok(InputFile { role, name, bytes, sha256 })
+    Ok((bytes, hash.iter().map(|b| format!("{b:02x}")).collect()))
+}
+
+/// Where an existing file lies below the recipe's folder, with `/`; `None` for what lies elsewhere.
+pub fn below_root(path: &Path, access: &Access) -> Option<String> {
+    let real = path.canonicalize().ok()?;
+    let parts = real.strip_prefix(access.root()).ok()?.iter().map(|part| part.to_string_lossy());
+    Some(parts.collect::<Vec<_>>().join("/"))
 }
 
 /// Manifests name files without folders, so that they do not depend on where a run took place.

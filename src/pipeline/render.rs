@@ -12,19 +12,20 @@ use super::build::{BuiltScene, Checks, build_scene};
 use super::error::PipelineError;
 use super::progress::Progress;
 use super::recipe::Recipe;
-use super::record::{acquisition_record, inputs};
+use super::record::acquisition_record;
 use super::views::{SceneViews, scene_views};
-use crate::dataset::manifest::{BudgetRecord, Generator, Manifest, ViewRecord};
+use crate::dataset::manifest::{BudgetRecord, ChosenRecord, Generator, Manifest, ViewRecord};
 use crate::dataset::reports::{self, SceneReports};
 use crate::dataset::writer::{WrittenFile, write_file};
 use crate::dataset::{DatasetError, image_path, is_levir_label, write_image};
 use crate::frame::{Frame, Image, Pixels};
-use crate::output::{OutputError, prepare_folder};
+use crate::output::prepare_folder;
+use crate::plan::demand::Output;
 use crate::plan::view::DrawnView;
 use crate::scene::SceneClass;
 use crate::scene::export::to_glb;
 use crate::source::SourceMap;
-use crate::spec::render_spec::{DatasetSpec, ViewSpec};
+use crate::spec::render_spec::{DatasetSpec, QualitySpec, ViewSpec};
 
 /// What the command line says about a render.
 #[derive(Clone, Debug, Default)]
@@ -35,6 +36,10 @@ pub struct RenderOptions {
     pub backend: BackendChoice,
     /// Per pixel, of the reference.
     pub samples: Option<u32>,
+    /// Only this one; all if absent.
+    pub dataset: Option<String>,
+    /// Quality by scene that is not to be chosen again where the recipe has an error budget.
+    pub settled: BTreeMap<String, ChosenRecord>,
 }
 
 /// What was made.
@@ -59,27 +64,53 @@ pub fn render_dataset(
     }
     check_wanted(recipe, options)?;
     prepare_folder(&options.output)?;
+    let built = build_scenes(recipe, progress, told)?;
+    let files = write_geometry(recipe, &built, &options.output)?;
+    render_built(recipe, options, sources, &built, files, progress)
+}
+
+/// Builds every scene of a recipe, which needs no GPU.
+pub fn build_scenes(
+    recipe: &Recipe,
+    progress: &dyn Progress,
+    told: &dyn Fn(&BuiltScene),
+) -> Result<Vec<BuiltScene>, PipelineError> {
+    let one = |index| {
+        let scene = build_scene(recipe, index, Checks::Off, progress)?;
+        told(&scene);
+        Ok(scene)
+    };
+    (0..recipe.spec.scenes.len()).map(one).collect()
+}
+
+/// Writes the glTF of every scene, and the reports.
+pub fn write_geometry(recipe: &Recipe, built: &[BuiltScene], folder: &Path) -> Result<Vec<WrittenFile>, PipelineError> {
+    let mut files = Vec::new();
+    for scene in built {
+        let glb = to_glb(&scene.scene, recipe.attribution())?;
+        let single = built.len() == 1;
+        let name = if single { "scene.glb".to_owned() } else { format!("scene-{}.glb", scene.record.name) };
+        files.push(write_file(folder, Path::new(&name), &glb)?);
+    }
+    files.extend(write_reports(built, folder)?);
+    Ok(files)
+}
+
+/// Draws the views of built scenes and writes images and manifests; `scene_files` are what [`write_geometry`] wrote.
+pub fn render_built(
+    recipe: &Recipe,
+    options: &RenderOptions,
+    sources: &SourceMap,
+    built: &[BuiltScene],
+    scene_files: Vec<WrittenFile>,
+    progress: &dyn Progress,
+) -> Result<RenderSummary, PipelineError> {
     let several = recipe.spec.datasets.len() > 1;
     let folder = |d: &DatasetSpec| if several { options.output.join(&d.name) } else { options.output.clone() };
     let mut summary = RenderSummary::default();
-
-    // Geometry, and its glTF, which need no GPU.
-    let mut built = Vec::new();
-    let mut scene_files = Vec::new();
-    for index in 0..recipe.spec.scenes.len() {
-        let scene = build_scene(recipe, index, Checks::Off, progress)?;
-        told(&scene);
-        let glb = to_glb(&scene.scene, recipe.attribution())?;
-        let single = recipe.spec.scenes.len() == 1;
-        let name = if single { "scene.glb".to_owned() } else { format!("scene-{}.glb", scene.record.name) };
-        scene_files.push(write_file(&options.output, Path::new(&name), &glb)?);
-        built.push(scene);
-    }
-    scene_files.extend(write_reports(&built, &options.output)?);
-
-    // Images.
     let mut backend = Backend::open(options.backend, options.samples, progress)?;
-    for dataset in &recipe.spec.datasets {
+    let wanted = |d: &&DatasetSpec| options.dataset.as_ref().is_none_or(|only| *only == d.name);
+    for dataset in recipe.spec.datasets.iter().filter(wanted) {
         let folder = folder(dataset);
         let (mut records, mut budgets) = (Vec::new(), Vec::new());
         for (index, scene) in built.iter().enumerate() {
@@ -87,10 +118,13 @@ pub fn render_dataset(
             if views.drawn.is_empty() {
                 continue;
             }
-            let settled = settle_for(&mut backend, recipe, dataset, (index, scene), progress)?;
-            let views = match &settled.record {
-                Some(_) => scene_views(recipe, &settled.dataset, index, scene, &|name| is_wanted(name, &options.views)),
-                None => views,
+            let settled = match options.settled.get(&scene.record.name) {
+                Some(chosen) => Settled { dataset: with_quality(dataset, chosen), record: None },
+                None => settle_for(&mut backend, recipe, dataset, (index, scene), progress)?,
+            };
+            let views = match settled.dataset.quality == dataset.quality {
+                true => views,
+                false => scene_views(recipe, &settled.dataset, index, scene, &|name| is_wanted(name, &options.views)),
             };
             budgets.extend(settled.record);
             backend.begin(&views, progress);
@@ -108,13 +142,21 @@ pub fn render_dataset(
         // Scenes lie beside the folders of several datasets.
         let from_here = |f: &WrittenFile| WrittenFile { path: format!("../{}", f.path), sha256: f.sha256.clone() };
         let files = if several { scene_files.iter().map(from_here).collect() } else { scene_files.clone() };
-        let manifest = manifest(recipe, dataset, sources, &backend, &built, (records, budgets), files)?;
+        let manifest = manifest(recipe, dataset, sources, &backend, built, (records, budgets), files)?;
         write_file(&folder, Path::new("manifest.json"), &manifest.to_bytes())?;
         let prefix = if several { format!("{}/", dataset.name) } else { String::new() };
         summary.other_files.push(format!("{prefix}manifest.json"));
     }
     summary.other_files.extend(scene_files.into_iter().map(|f| f.path));
     Ok(summary)
+}
+
+/// A dataset with the quality that a manifest records.
+fn with_quality(dataset: &DatasetSpec, chosen: &ChosenRecord) -> DatasetSpec {
+    let ChosenRecord { antialiasing, shadow_map, shadow_samples, sky_samples, field_map } = *chosen;
+    let supersample = antialiasing.isqrt();
+    let quality = QualitySpec { supersample, shadow_map, shadow_samples, sky_samples, field_map, ..dataset.quality };
+    DatasetSpec { quality, ..dataset.clone() }
 }
 
 /// Budgets are about the GPU's approximations; the reference has none of its knobs, and tells its noise.
@@ -249,8 +291,22 @@ fn view_record(
         draws: drawn.draws.iter().map(|d| (d.path.clone(), d.value.into())).collect(),
         acquisitions: drawn.demands.iter().map(acquisition_record).collect(),
         images,
+        outputs: outputs(drawn),
         standard_errors: BTreeMap::new(),
     }
+}
+
+/// What the images of a view hold.
+fn outputs(drawn: &DrawnView) -> BTreeMap<String, &'static str> {
+    let word = |output: Output| match output {
+        Output::Color => "colour",
+        Output::Class => "class",
+        Output::Mask => "mask",
+        Output::Level => "level",
+        Output::Instance => "instance",
+        Output::Depth => "depth",
+    };
+    drawn.demands.iter().flat_map(|demand| &demand.outputs).map(|o| (o.pass.clone(), word(o.output))).collect()
 }
 
 fn manifest(
@@ -267,8 +323,9 @@ fn manifest(
         generator: Generator { name: "mansard", version: env!("CARGO_PKG_VERSION") },
         attribution: recipe.attribution().to_owned(),
         dataset: dataset.name.clone(),
+        recipe: recipe.path.file_name().unwrap_or_default().to_string_lossy().into_owned(),
         arguments: recipe.arguments_without_folders(),
-        inputs: inputs(recipe, sources, built).map_err(|e| OutputError::new(&recipe.path, e))?,
+        inputs: recipe.inputs(sources, built)?,
         renderer: backend.info(),
         classes: SceneClass::ALL.iter().map(|class| (*class as u8, class.name())).collect(),
         scenes: built.iter().map(|b| b.record.clone()).collect(),

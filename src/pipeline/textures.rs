@@ -14,6 +14,7 @@ use image::imageops::{FilterType, resize};
 use image::{ImageFormat, ImageReader, Limits, Luma, Rgba, RgbaImage};
 
 use super::error::PipelineError;
+use super::record::below_root;
 use crate::dataset::manifest::InputFile;
 use crate::dataset::writer::sha256;
 use crate::interpreter::FileAssets;
@@ -163,7 +164,8 @@ impl Loader<'_> {
         let Ok((path, bytes)) = self.assets.texture(named) else { return Ok(None) };
         let name = below(&path, named, self.assets.access());
         let (size, hash) = (bytes.len() as u64, sha256(&bytes));
-        let file = InputFile { role: "texture", name: name.clone(), bytes: size, sha256: hash };
+        let place = below_root(&path, self.assets.access());
+        let file = InputFile { role: "texture", name: name.clone(), path: place, bytes: size, sha256: hash };
         self.loaded.files.push(file.clone());
         if let Some(known) = self.kept.files.get(named)
             && known.file.as_ref() == Some(&file)

@@ -96,6 +96,14 @@ pub enum Command {
         #[command(flatten)]
         work: WorkOptions,
     },
+    /// Say what differs between two recipes, two git revisions or two output folders
+    ///
+    /// Exit codes: 0 the same, 1 different, 2 trouble.
+    Diff(DiffArgs),
+    /// Make a dataset again from its manifest and compare every file
+    ///
+    /// Exit codes: 0 verified, 1 something differs, 2 it cannot be verified, as where an input is missing or is not what it was.
+    Verify(VerifyArgs),
     /// Serve an editor: the Language Server Protocol on standard input and output
     Lsp {
         /// The only way there is; some editors name it
@@ -186,6 +194,30 @@ pub struct RenderArgs {
 }
 
 #[derive(Clone, Debug, clap::Args)]
+pub struct DiffArgs {
+    /// A recipe, a folder that `mansard render` wrote, or REVISION:PATH of a recipe in git; with --recipe a revision
+    pub a: String,
+    /// What A is compared with, named likewise
+    pub b: String,
+    /// The recipe that is compared in two revisions
+    #[arg(long, value_name = "FILE")]
+    pub recipe: Option<PathBuf>,
+    /// Folder for pictures of the differences, diff.json and diff.html, made if it is missing; recipes are drawn
+    #[arg(short, long, value_name = "DIR")]
+    pub output: Option<PathBuf>,
+    /// Draw recipes and compare their pixels too
+    #[arg(long)]
+    pub pixels: bool,
+    /// `json` prints everything, lists uncut
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    pub format: Format,
+    #[command(flatten)]
+    pub options: RecipeOptions,
+    #[command(flatten)]
+    pub work: WorkOptions,
+}
+
+#[derive(Clone, Debug, clap::Args)]
 pub struct WatchArgs {
     pub recipe: PathBuf,
     /// No window: one line of JSON per update on standard output, and the picture in a file
@@ -219,6 +251,36 @@ pub struct WatchArgs {
     pub options: RecipeOptions,
     #[command(flatten)]
     pub work: WorkOptions,
+}
+
+#[derive(Clone, Debug, clap::Args)]
+pub struct VerifyArgs {
+    /// A folder that `mansard render` wrote
+    pub dir: PathBuf,
+    /// Where the recipe lies; it is searched for about the dataset and the working folder otherwise
+    #[arg(long, value_name = "FILE")]
+    pub recipe: Option<PathBuf>,
+    /// Folder with inputs, whatever their names; may be given several times
+    #[arg(long, value_name = "DIR")]
+    pub inputs: Vec<PathBuf>,
+    /// What is taken for the same colours
+    #[arg(long, value_enum, default_value_t = ColoursName::Exact)]
+    pub colours: ColoursName,
+    /// Make the geometry again and leave the images alone; needs no GPU
+    #[arg(long)]
+    pub no_images: bool,
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    pub format: Format,
+    #[command(flatten)]
+    pub work: WorkOptions,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum ColoursName {
+    /// Equal to the bit
+    Exact,
+    /// On another adapter or driver within 1/255, depths within 1e-5 of themselves; labels are always exact
+    Close,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

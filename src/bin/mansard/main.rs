@@ -6,6 +6,7 @@ mod check;
 mod compatibility;
 mod cost;
 mod derive;
+mod diff;
 mod dump;
 mod explain;
 mod fmt;
@@ -19,6 +20,7 @@ mod reports;
 mod start_shapes;
 mod town;
 mod validate;
+mod verify;
 mod watch;
 
 use std::process::ExitCode;
@@ -57,6 +59,8 @@ fn main() -> ExitCode {
         Command::Cost { recipe, output, measure, options, work } => {
             cost::run(&recipe, &output, &measure, &options, &work, &reporter)
         }
+        Command::Diff(diff) => diff::run(&diff, &reporter),
+        Command::Verify(verify) => verify::run(&verify, &reporter),
         Command::Lsp { stdio: _ } => lsp::run(),
         Command::Dump { phase, file } => dump::run(phase, &file, args.quiet),
         Command::Town { seed, buildings, output, name } => town::run(seed, buildings, &output, &name, &reporter),

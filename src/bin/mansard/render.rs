@@ -20,7 +20,7 @@ pub fn run(args: &RenderArgs, reporter: &Reporter) -> Result<(), Failure> {
         Some(BackendName::Reference) => BackendChoice::Reference,
     };
     let (output, views) = (args.output.clone(), args.views.clone());
-    let options = RenderOptions { output, views, backend, samples: args.samples };
+    let options = RenderOptions { output, views, backend, samples: args.samples, ..RenderOptions::default() };
     let failed = std::cell::Cell::new(false);
     let all_reports = std::cell::RefCell::new(Vec::new());
     let told = |built: &mansard::pipeline::BuiltScene| {

@@ -215,7 +215,7 @@ impl<'p> Walk<'p> {
 
     /// What restricts the host's values; the rest is for people.
     fn annotations(&mut self, annotations: &Annotations) {
-        let Annotations { hidden: _, range, choices, groups: _, order: _, description: _, display_name: _ } =
+        let Annotations { hidden: _, range, choices, groups: _, order: _, color: _, description: _, display_name: _ } =
             annotations;
         if let Some(Range { min, max, step: _, restricted: true }) = range {
             self.debug(&(min, max));

@@ -28,7 +28,8 @@ pub struct Panel {
     pub pictures: Vec<(Picture, String)>,
 }
 
-const STYLE: &str = "\
+/// Of pages that need no other file.
+pub const STYLE: &str = "\
 :root{color-scheme:light dark;--back:#fbfbfa;--ink:#1c2330;--soft:#5b6675;--line:#d9dde4;--band:#f1f3f6;--mark:#c2410c}\
 @media(prefers-color-scheme:dark){:root{--back:#12161d;--ink:#e5e9f0;--soft:#9aa7b8;--line:#303947;--band:#1a202a;--mark:#fb923c}}\
 *{box-sizing:border-box}body{margin:0;background:var(--back);color:var(--ink);font:16px/1.5 system-ui,sans-serif}\
