@@ -179,6 +179,24 @@ impl Memory {
         is_same.then(|| kept.built.clone())
     }
 
+    /// The last scene, if it is made from the very same start shapes, texts and files: there is nothing to look into.
+    pub(super) fn settled(
+        &mut self,
+        recipe: &Recipe,
+        fineness: Fineness,
+        prepared: &Arc<PreparedScene>,
+        assets: &Arc<FileAssets>,
+    ) -> Option<Arc<BuiltScene>> {
+        let name = &self.scene.as_ref()?.built.record.name;
+        let spec = recipe.spec.scenes.iter().find(|scene| scene.name == *name)?;
+        let built = self.unchanged(spec, fineness, prepared, assets)?;
+        if !self.states.are_of(&recipe.programs) {
+            return None;
+        }
+        self.log.kept = self.states.len();
+        Some(built)
+    }
+
     pub(super) fn keep_scene(
         &mut self,
         built: &Arc<BuiltScene>,
