@@ -321,7 +321,11 @@ impl Server {
             }
             told::DidChangeConfiguration::METHOD => {
                 if let Some(DidChangeConfigurationParams { settings: given }) = read(params) {
+                    let explain_scheme = self.workspace.settings.explain_scheme.take();
                     self.workspace.settings = settings(given);
+                    // The editor's own, not the user's: told once.
+                    self.workspace.settings.explain_scheme =
+                        self.workspace.settings.explain_scheme.take().or(explain_scheme);
                     self.forget_everything();
                 }
             }
@@ -356,7 +360,8 @@ impl Server {
         let mut path = self.workspace.path(&opened.uri);
         if Language::of(&path).is_none() && uri::path(&opened.uri).is_none() {
             // A document that was never saved has no ending yet.
-            path.as_mut_os_string().push(format!(".{}", opened.language_id));
+            let is_recipe = opened.language_id.ends_with("render");
+            path.as_mut_os_string().push(if is_recipe { ".render" } else { ".cga" });
         }
         let document = Document { uri: opened.uri, version: opened.version, text: opened.text.into() };
         self.workspace.documents.open(path, document);
@@ -415,5 +420,8 @@ fn read<T: DeserializeOwned>(params: serde_json::Value) -> Option<T> {
 /// The settings, whether or not they come below `mansard`; those that cannot be read are the defaults.
 fn settings(mut given: serde_json::Value) -> Settings {
     let own = given.get_mut("mansard").map(serde_json::Value::take).unwrap_or(given);
-    serde_json::from_value(own).unwrap_or_default()
+    let mut settings: Settings = serde_json::from_value(own).unwrap_or_default();
+    // Editors write an empty text where nothing is set.
+    settings.recipe = settings.recipe.filter(|path| !path.as_os_str().is_empty());
+    settings
 }

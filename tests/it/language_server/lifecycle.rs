@@ -71,6 +71,33 @@ fn files_are_watched_where_the_client_can() {
 }
 
 #[test]
+fn settings_come_as_options_and_as_configuration() {
+    let files =
+        [("lot.cga", "attr height = 3\n@StartRule\nLot --> extrude(height)\n"), ("a.osm", "<osm version=\"0.6\"/>")];
+    let mut editor = Editor::silent(&files);
+    let folder = json!({ "uri": editor.uri(""), "name": "test" });
+    let options = json!({ "set": ["rules=lot.cga"], "explainScheme": "pages" });
+    let params = json!({ "capabilities": {}, "workspaceFolders": [folder], "initializationOptions": options });
+    editor.request("initialize", params).expect("initialize succeeds");
+    editor.notify("initialized", json!({}));
+    let recipe =
+        "input rules : text\ninput map : files\nscene a { map $map; rules $rules for building { hight = 1 } }\n";
+    editor.open("a.render", recipe);
+    // The map is not given: the recipe is checked as far as it goes, which is not into its rules.
+    assert_eq!(editor.diagnostics("a.render", 1), Vec::<serde_json::Value>::new());
+    let set =
+        [format!("rules={}", editor.path("lot.cga").display()), format!("map={}", editor.path("a.osm").display())];
+    let section = json!({ "mansard": { "recipe": "", "set": set, "allow": [], "path": "mansard" } });
+    editor.notify("workspace/didChangeConfiguration", json!({ "settings": section }));
+    let found = editor.diagnostics("a.render", 1);
+    assert_eq!(found[0]["code"], json!("render::unknown-attribute"), "{found:?}");
+    editor.open("b.cga", "Lot --> extrud(3)\n");
+    let found = editor.diagnostics("b.cga", 1);
+    let href = &found[0]["codeDescription"]["href"];
+    assert_eq!(href, &json!("pages:cga::unknown-operation.md"), "the scheme was told once");
+}
+
+#[test]
 fn a_document_without_a_file_is_served() {
     let mut editor = Editor::new(&[]);
     let document =
