@@ -241,21 +241,5 @@ pub fn point_at(camera: &Camera, at: Pixel, depth: f64) -> DVec3 {
     origin + direction * depth
 }
 
-/// Where a point is in the picture; `None` behind the camera.
-pub fn project(camera: &Camera, point: DVec3) -> Option<Pixel> {
-    let offset = point - camera.position;
-    let ahead = offset.dot(camera.forward);
-    let (x, y) = match camera.projection {
-        Projection::Perspective { tan_x, tan_y } if ahead > 0.0 => {
-            (offset.dot(camera.right) / (ahead * tan_x), offset.dot(camera.up) / (ahead * tan_y))
-        }
-        Projection::Perspective { .. } => return None,
-        Projection::Orthographic { half_x, half_y } => {
-            (offset.dot(camera.right) / half_x, offset.dot(camera.up) / half_y)
-        }
-    };
-    Some(Pixel { x: (x + 1.0) / 2.0 * f64::from(camera.width), y: (1.0 - y) / 2.0 * f64::from(camera.height) })
-}
-
 #[cfg(test)]
 mod tests;

@@ -196,6 +196,7 @@ fn the_window_shows_edits_and_answers_clicks() {
     // A screenshot of an untouched view is the dataset's image.
     let (x, y) = screen_point(&first, 0.5, 0.5);
     display.move_to(x, y);
+    display.focus();
     display.key('p');
     let saved = watch.wait("the screenshot", |line| line["event"] == "screenshot");
     let saved = image::open(shop.path(saved["path"].as_str().expect("a path"))).expect("a whole PNG").to_rgb8();
@@ -257,6 +258,7 @@ fn states_views_and_hands() {
     let first = watch.frame(1);
     let (x, y) = screen_point(&first, 0.5, 0.5);
     display.move_to(x, y);
+    display.focus();
     for (key, shown) in
         [('1', vec!["before"]), ('3', vec!["mask"]), ('s', vec!["before", "after"]), ('2', vec!["after"])]
     {

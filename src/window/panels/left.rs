@@ -8,7 +8,7 @@ use crate::window::desk::{Desk, Show};
 use crate::window::theme;
 
 pub fn show(ui: &mut Ui, desk: &mut Desk, actions: &mut Vec<Action>) {
-    egui::Panel::left("choices").default_size(248.0).size_range(210.0..=360.0).frame(theme::side()).show(ui, |ui| {
+    egui::Panel::left("choices").default_size(258.0).size_range(230.0..=360.0).frame(theme::side()).show(ui, |ui| {
         fixed(ui, |ui| {
             heading(ui, desk);
             state(ui, desk, actions);
@@ -45,16 +45,25 @@ pub fn thousands(number: usize) -> String {
 
 fn state(ui: &mut Ui, desk: &mut Desk, actions: &mut Vec<Action>) {
     theme::title(ui, "State");
-    ui.columns(4, |columns| {
-        for ((ui, show), key) in columns.iter_mut().zip(Show::ALL).zip(["1", "2", "3", "S"]) {
-            let chosen = desk.show == show;
-            let fill = if chosen { theme::ACCENT_DEEP } else { theme::RAISED };
-            let text = RichText::new(show.name()).color(if chosen { theme::STRONG } else { theme::TEXT });
-            if ui.add_sized([ui.available_width(), 26.0], egui::Button::new(text).fill(fill)).on_hover_text(format!("key {key}")).clicked() && !chosen {
-                desk.show = show;
-                actions.push(Action::Look { moving: false });
+    ui.scope(|ui| {
+        ui.spacing_mut().item_spacing.x = 5.0;
+        ui.columns(4, |columns| {
+            for ((ui, show), key) in columns.iter_mut().zip(Show::ALL).zip(["1", "2", "3", "S"]) {
+                let chosen = desk.show == show;
+                let fill = if chosen { theme::ACCENT_DEEP } else { theme::RAISED };
+                ui.spacing_mut().button_padding.x = 2.0;
+                let text = RichText::new(show.name()).color(if chosen { theme::STRONG } else { theme::TEXT });
+                if ui
+                    .add_sized([ui.available_width(), 26.0], egui::Button::new(text).fill(fill))
+                    .on_hover_text(format!("key {key}"))
+                    .clicked()
+                    && !chosen
+                {
+                    desk.show = show;
+                    actions.push(Action::Look { moving: false });
+                }
             }
-        }
+        });
     });
 }
 
@@ -108,7 +117,7 @@ fn sun(ui: &mut Ui, desk: &mut Desk, actions: &mut Vec<Action>) {
     theme::title(ui, "Sun");
     theme::card().show(ui, |ui| {
         let SunAngles { mut elevation, mut azimuth } = now;
-        ui.spacing_mut().slider_width = (ui.available_width() - 120.0).max(60.0);
+        ui.spacing_mut().slider_width = (ui.available_width() - 138.0).max(40.0);
         let slider = |ui: &mut Ui, name: &str, value: &mut f64, range: std::ops::RangeInclusive<f64>| {
             ui.horizontal(|ui| {
                 name_cell(ui, name, 56.0);
