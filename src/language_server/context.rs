@@ -278,7 +278,10 @@ impl Reader<'_> {
 
     fn open_block(&mut self, i: usize) {
         let owner = self.owner(i);
-        let is_value = self.top().mode != Mode::Sequence;
+        // A block inside a block stands where its sizes do, and holds what it holds.
+        let nested = self.top().colons.0 > 0 && matches!(self.tokens.letter(i.wrapping_sub(1)), b'{' | b'|');
+        let around = if nested { self.top().body } else { self.top().mode };
+        let is_value = around != Mode::Sequence;
         let body = if is_value { Mode::Expression } else { Mode::Sequence };
         let (colons, mode) = match owner.as_str() {
             "splitAndSetbackPerimeter" => (2, Mode::Expression),
