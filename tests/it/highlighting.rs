@@ -295,8 +295,9 @@ fn every_token_of_every_file_has_a_scope() {
 
 /// The scope at the first byte of a span.
 fn scope_at(pieces: &[Piece], text: &str, span: Span) -> Option<String> {
-    let line = text[..span.start].matches('\n').count();
-    let column = span.start - text[..span.start].rfind('\n').map_or(0, |at| at + 1);
+    let start = span.start as usize;
+    let line = text[..start].matches('\n').count();
+    let column = start - text[..start].rfind('\n').map_or(0, |at| at + 1);
     pieces.iter().find(|p| p.line == line && (p.from..p.to).contains(&column)).and_then(|p| p.scope.clone())
 }
 

@@ -209,8 +209,8 @@ pub struct DiffArgs {
     #[arg(long)]
     pub pixels: bool,
     /// `json` prints everything, lists uncut
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    pub format: Format,
+    #[arg(long, value_enum, default_value_t = ReportFormat::Text)]
+    pub format: ReportFormat,
     #[command(flatten)]
     pub options: RecipeOptions,
     #[command(flatten)]
@@ -269,8 +269,8 @@ pub struct VerifyArgs {
     /// Make the geometry again and leave the images alone; needs no GPU
     #[arg(long)]
     pub no_images: bool,
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    pub format: Format,
+    #[arg(long, value_enum, default_value_t = ReportFormat::Text)]
+    pub format: ReportFormat,
     #[command(flatten)]
     pub work: WorkOptions,
 }
@@ -339,6 +339,12 @@ pub enum Format {
     Text,
     /// `FILE:LINE:COLUMN: error[CODE]: MESSAGE`, as editors read it
     Short,
+    Json,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum ReportFormat {
+    Text,
     Json,
 }
 

@@ -8,7 +8,7 @@ use mansard::comparison::{
 use mansard::pipeline;
 use mansard::source::SourceMap;
 
-use crate::args::{DiffArgs, Format};
+use crate::args::{DiffArgs, ReportFormat};
 use crate::build::use_threads;
 use crate::progress::Reporter;
 use crate::report::{self, Failure};
@@ -42,10 +42,10 @@ fn side(
     collect(operand, as_stored, pixels, options, &mut sources, reporter).map_err(|error| failure(error, &sources))
 }
 
-fn tell(difference: &Difference, format: Format) -> Result<(), Failure> {
+fn tell(difference: &Difference, format: ReportFormat) -> Result<(), Failure> {
     match format {
-        Format::Text => report::out(&difference_text(difference)),
-        Format::Json => report::out(&format!(
+        ReportFormat::Text => report::out(&difference_text(difference)),
+        ReportFormat::Json => report::out(&format!(
             "{}\n",
             serde_json::to_string_pretty(difference).expect("names and numbers serialise")
         )),

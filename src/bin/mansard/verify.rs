@@ -3,7 +3,7 @@
 use mansard::comparison::{Colours, VerifyOptions, verification_text, verify};
 use mansard::source::SourceMap;
 
-use crate::args::{ColoursName, Format, VerifyArgs};
+use crate::args::{ColoursName, ReportFormat, VerifyArgs};
 use crate::build::use_threads;
 use crate::diff::failure;
 use crate::progress::Reporter;
@@ -23,8 +23,8 @@ pub fn run(args: &VerifyArgs, reporter: &Reporter) -> Result<(), Failure> {
     let mut sources = SourceMap::default();
     let found = verify(&args.dir, &options, &mut sources, reporter).map_err(|error| failure(error, &sources))?;
     match args.format {
-        Format::Text => report::out(&verification_text(&found))?,
-        Format::Json => {
+        ReportFormat::Text => report::out(&verification_text(&found))?,
+        ReportFormat::Json => {
             let json = serde_json::to_string_pretty(&found).expect("names and numbers serialise");
             report::out(&format!("{json}\n"))?;
         }
