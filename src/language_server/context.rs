@@ -234,14 +234,18 @@ impl Reader<'_> {
                     top.mode = Mode::Header;
                 }
             }
-            _ if self.is_name(i) && self.top().mode == Mode::Header && self.top().open == b'(' => {
-                if self.tokens.letter(i + 1) != letter::DEFINE {
-                    let name = self.name(i).to_owned();
-                    self.locals.push(name);
-                }
+            _ if self.is_name(i) && self.declares(i) => {
+                let name = self.name(i).to_owned();
+                self.locals.push(name);
             }
             _ => {}
         }
+    }
+
+    /// Whether a name is a parameter; what `:=` follows is taken there.
+    fn declares(&mut self, i: usize) -> bool {
+        let in_header = self.top().mode == Mode::Header && self.top().open == b'(';
+        in_header && self.tokens.letter(i + 1) != letter::DEFINE
     }
 
     /// Behind a condition, a percentage, a selector or a size.
