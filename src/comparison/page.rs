@@ -11,7 +11,7 @@ use super::meshes::FeatureMeshes;
 use super::picture::{Canvas, strip};
 use super::rules::Fate;
 use super::snapshot::Snapshot;
-use super::text::{difference_text, image_name, pixels_text, surface};
+use super::text::{difference_text, pixels_text, surface};
 use super::views::DrawDifference;
 use crate::cost::report::page::STYLE;
 use crate::cost::report::picture::Picture;
@@ -82,8 +82,8 @@ fn picture(images: &[&ImageDifference], a: &Snapshot, b: &Snapshot) -> Result<Op
         let find = |side: &super::snapshot::DatasetSnapshot| side.views[&image.view].images[&image.image].clone();
         let (image_a, image_b) = (find(&of_a), find(&of_b));
         let (left, right, _) = load_pair(&image.view, ((a, &of_a), &image_a), ((b, &of_b), &image_b))?;
-        let name = image_name(image);
-        strips.push(strip(&left, &right, kind, &name, &pixels_text(image).replace('→', "TO")));
+        let result = format!("{}: {}", image.view, pixels_text(image).replace('→', "TO"));
+        strips.push(strip(&left, &right, kind, &image.image, &result));
     }
     Ok((!strips.is_empty()).then(|| Canvas::stacked(&strips)))
 }
