@@ -23,8 +23,20 @@ use crate::plan::resource::ResourceId;
 
 /// All of a view's images, or, unless `windows` is empty, those parts of them.
 pub fn render(renderer: &mut Renderer, view: &ViewPlan, windows: &[Tile]) -> Result<Frame, GpuError> {
-    let Renderer { gpu, pipelines, targets, scene, readback, max_tile, positions, passes, triangles, drawn, stopwatch } =
-        renderer;
+    let Renderer {
+        gpu,
+        pipelines,
+        targets,
+        scene,
+        conformed: _,
+        readback,
+        max_tile,
+        positions,
+        passes,
+        triangles,
+        drawn,
+        stopwatch,
+    } = renderer;
     let counter = Cell::new(0);
     stopwatch.start_view();
     let scene =

@@ -6,16 +6,59 @@
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use glam::DVec3;
+use rayon::prelude::*;
 
-use crate::scene::{Group, TriMesh};
+use crate::scene::{Group, Presence, Scene, SceneClass, SceneObject, SharedMesh, TriMesh};
 
 /// Metres within which a corner lies on an edge: much less than is seen, much more than rounding.
 const ON_EDGE: f64 = 1e-5;
 
 /// Corners on an edge between two places, from the lesser place on: share of the edge's length and place.
 type Splits = BTreeMap<(u32, u32), Vec<(f64, u32)>>;
+
+/// What became of the meshes of the scene before.
+#[derive(Default)]
+pub struct Conformed {
+    known: BTreeMap<(u32, Presence, u16), Known>,
+}
+
+struct Known {
+    mesh: SharedMesh,
+    /// `None` where the mesh itself will do.
+    conforming: Option<Arc<TriMesh>>,
+}
+
+impl Conformed {
+    /// [`conforming`] of every building, in the order of the objects; `None` where the mesh itself will do. Meshes that
+    /// the scene before had are not looked at again.
+    pub fn meshes(&mut self, scene: &Scene) -> Vec<Option<Arc<TriMesh>>> {
+        let known = &self.known;
+        let one = |object: &SceneObject| {
+            // The layers of the ground are one mesh without junctions.
+            if object.class != SceneClass::Building {
+                return None;
+            }
+            match known.get(&(object.instance, object.presence, object.change)) {
+                Some(known) if known.mesh.is(&object.mesh) => known.conforming.clone(),
+                _ => match conforming(&object.mesh) {
+                    Cow::Borrowed(_) => None,
+                    Cow::Owned(mesh) => Some(Arc::new(mesh)),
+                },
+            }
+        };
+        let meshes: Vec<_> = scene.objects.par_iter().map(one).collect();
+        let buildings = scene.objects.iter().zip(&meshes).filter(|(object, _)| object.class == SceneClass::Building);
+        let known = buildings.map(|(object, conforming)| {
+            let known = Known { mesh: object.mesh.clone(), conforming: conforming.clone() };
+            ((object.instance, object.presence, object.change), known)
+        });
+        self.known = known.collect();
+        meshes
+    }
+}
 
 /// The mesh itself if there is nothing to do. Vertices are added behind the others; texture coordinates other than set 0
 /// are left out then.

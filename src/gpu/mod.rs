@@ -63,6 +63,7 @@ pub struct Renderer {
     pipelines: pipelines::Pipelines,
     targets: pools::TargetPool,
     scene: Option<upload::GpuScene>,
+    conformed: junctions::Conformed,
     readback: readback::Readback,
     max_tile: u32,
     positions: Positions,
@@ -85,6 +86,7 @@ impl Renderer {
             pipelines,
             targets,
             scene: None,
+            conformed: junctions::Conformed::default(),
             readback,
             max_tile,
             positions,
@@ -141,7 +143,9 @@ impl Renderer {
     fn upload_attributes(&mut self, scene: &Scene, wanted: &BTreeSet<Attribute>) -> Result<(), GpuError> {
         self.scene = None;
         upload::check(scene)?;
-        let uploaded = self.gpu.checked("uploading the scene", || upload::GpuScene::new(&self.gpu, scene, wanted))?;
+        let conformed = &mut self.conformed;
+        let upload = || upload::GpuScene::new(&self.gpu, scene, wanted, conformed);
+        let uploaded = self.gpu.checked("uploading the scene", upload)?;
         self.scene = Some(uploaded);
         Ok(())
     }

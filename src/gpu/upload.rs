@@ -3,7 +3,6 @@
 //! Other attributes go to the device once, when a pass first reads them; positions are written anew for each camera, about
 //! its origin (see [`GpuScene::place`]).
 
-use std::borrow::Cow;
 use std::collections::BTreeSet;
 use std::ops::Range;
 use std::sync::Arc;
@@ -13,14 +12,14 @@ use glam::DVec3;
 use super::GpuError;
 use super::cutouts::Textures;
 use super::device::Gpu;
-use super::junctions;
+use super::junctions::Conformed;
 use super::mipmaps::{self, linear_from_srgb};
 use super::streams::{Builder, Streams};
 use crate::plan::attribute::Attribute;
 use crate::plan::pass::Surface;
 use crate::plan::summary::{least_alpha, material_surfaces};
 use crate::scene::reflectance::near_infrared_gain;
-use crate::scene::{Scene, SceneClass};
+use crate::scene::{Scene, SceneClass, TriMesh};
 
 /// Triangles of one object with one surface.
 #[derive(Clone, Debug)]
@@ -61,7 +60,7 @@ pub enum Positions {
 
 impl GpuScene {
     /// With the attributes that will be read; positions are always there.
-    pub fn new(gpu: &Gpu, scene: &Scene, wanted: &BTreeSet<Attribute>) -> GpuScene {
+    pub fn new(gpu: &Gpu, scene: &Scene, wanted: &BTreeSet<Attribute>, conformed: &mut Conformed) -> GpuScene {
         let surfaces = material_surfaces(scene);
         let texture_of = |m: usize| {
             let name = scene.materials[m].colormap.as_ref()?;
@@ -71,15 +70,12 @@ impl GpuScene {
         let mut builder = Builder::new(wanted, &scene.materials);
         let mut textures = Textures::new(scene.textures.iter().map(|(_, texture)| texture.clone()));
         let (mut chunks, mut indices) = (Vec::new(), Vec::new());
-        for (number, object) in scene.objects.iter().enumerate() {
-            // The layers of the ground are one mesh without junctions.
-            let mesh = match object.class {
-                SceneClass::Building => junctions::conforming(&object.mesh),
-                _ => Cow::Borrowed(&*object.mesh),
-            };
+        let conforming = conformed.meshes(scene);
+        for (number, (object, conforming)) in scene.objects.iter().zip(&conforming).enumerate() {
+            let mesh: &TriMesh = conforming.as_deref().unwrap_or(&object.mesh);
             let base = world.len() as u32;
             world.extend_from_slice(&mesh.positions);
-            builder.push(number, object.class, &mesh);
+            builder.push(number, object.class, mesh);
             for group in mesh.groups.iter().filter(|g| g.count > 0) {
                 let material = group.material as usize;
                 let Some(surface) = surfaces[material] else { continue };

@@ -29,6 +29,10 @@ pub fn client(capabilities: &ClientCapabilities) -> Client {
             .unwrap_or(false),
         hierarchical_symbols: symbols.and_then(|s| s.hierarchical_document_symbol_support).unwrap_or(false),
         refreshes_lenses: workspace.and_then(|w| w.code_lens.as_ref()).and_then(|c| c.refresh_support).unwrap_or(false),
+        registers_watchers: workspace
+            .and_then(|w| w.did_change_watched_files.as_ref())
+            .and_then(|w| w.dynamic_registration)
+            .unwrap_or(false),
         label_offsets: parameter.and_then(|p| p.label_offset_support).unwrap_or(false),
     }
 }

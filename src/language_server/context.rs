@@ -137,9 +137,26 @@ impl Reader<'_> {
         let begins = |i: &usize| match self.tokens.letter(*i) {
             letter::ATTR | letter::CONST | letter::IMPORT | letter::STYLE | letter::VERSION | b'@' => true,
             letter::MODIFIER | letter::RULE | letter::FUNCTION => self.tokens.begins_line(self.text, *i),
-            _ => false,
+            _ => self.begins_header(*i, limit),
         };
         (0..limit).rev().find(begins).unwrap_or(0)
+    }
+
+    /// Whether a name at the margin has open parentheses: the parameters of a declaration that is being written.
+    fn begins_header(&self, i: usize, limit: usize) -> bool {
+        let at_margin =
+            self.tokens.places[i].start == 0 || self.text[..self.tokens.places[i].start as usize].ends_with('\n');
+        let open = |from: usize| {
+            (from..limit).fold(0i32, |depth, j| {
+                depth + i32::from(self.tokens.letter(j) == b'(') - i32::from(self.tokens.letter(j) == b')')
+            })
+        };
+        at_margin
+            && self.is_name(i)
+            && self.tokens.letter(i + 1) == b'('
+            && Operation::from_name(self.name(i)).is_none()
+            && i + 1 < limit
+            && open(i + 1) > 0
     }
 
     fn name(&self, index: usize) -> &str {
@@ -388,6 +405,8 @@ mod tests {
             ("A --> 30% : Wi¦", S::Sequence),
             ("A(width) --> ¦", S::Sequence),
             ("A(wid¦", S::Nothing),
+            ("A --> B\nC(wid¦", S::Nothing),
+            ("A -->\nextrude(wid¦", S::Expression),
             ("attr a = he¦", S::Expression),
             ("attr a = 1¦", S::Nothing),
             ("// a comm¦", S::Nothing),

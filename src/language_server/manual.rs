@@ -1,9 +1,11 @@
 //! The manual's text, from the pages that tests hold to the program's tables. In: a name of the rule language or a key of
 //! a recipe. Out: what `docs/cga.md` and `docs/render.md` say about it, as Markdown.
 
+use std::collections::BTreeMap;
 use std::fmt::Write;
+use std::sync::LazyLock;
 
-use crate::cga::builtins::{Attr, Function, Operation, usage};
+use crate::cga::builtins::{Attr, AttrInfo, Function, Operation, usage};
 use crate::cga::program::Type;
 use crate::spec::PRESETS;
 use crate::spec::schema::{BlockShape, Key};
@@ -11,9 +13,19 @@ use crate::spec::schema::{BlockShape, Key};
 static RULES: &str = include_str!("../../docs/cga.md");
 static RECIPES: &str = include_str!("../../docs/render.md");
 
+/// Pages in the order of the tables, put together once.
+static OPERATIONS: LazyLock<Vec<String>> = LazyLock::new(|| {
+    Operation::ALL.iter().map(|operation| page(&usage::operation(*operation), &operation_text(*operation))).collect()
+});
+static FUNCTIONS: LazyLock<Vec<String>> = LazyLock::new(|| {
+    Function::ALL.iter().map(|function| page(&usage::function(*function), &function_text(*function))).collect()
+});
+static ATTRIBUTES: LazyLock<BTreeMap<&str, String>> =
+    LazyLock::new(|| Attr::table().map(|row| (row.name, attribute_page(row))).collect());
+
 /// Signatures and text of an operation.
-pub fn operation(operation: Operation) -> String {
-    page(&usage::operation(operation), &operation_text(operation))
+pub fn operation(operation: Operation) -> &'static str {
+    &OPERATIONS[operation as usize]
 }
 
 /// The prose of an operation's section and its example.
@@ -44,8 +56,8 @@ pub fn operation_text(operation: Operation) -> String {
 }
 
 /// Signatures and text of a function.
-pub fn function(function: Function) -> String {
-    page(&usage::function(function), &function_text(function))
+pub fn function(function: Function) -> &'static str {
+    &FUNCTIONS[function as usize]
 }
 
 pub fn function_text(function: Function) -> String {
@@ -53,8 +65,12 @@ pub fn function_text(function: Function) -> String {
 }
 
 /// Type and text of a built-in attribute.
-pub fn attribute(name: &str) -> String {
-    let Some(info) = Attr::from_name(name) else { return String::new() };
+pub fn attribute(name: &str) -> &'static str {
+    ATTRIBUTES.get(name).map_or("", String::as_str)
+}
+
+fn attribute_page(info: &AttrInfo) -> String {
+    let name = info.name;
     let read_only = if info.writable { "" } else { ", read only" };
     let head = format!("{name}: {}{read_only}", type_word(info.kind));
     let present = info.attr.info().name;

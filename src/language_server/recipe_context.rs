@@ -79,8 +79,8 @@ pub enum Spot {
     AttributeValue,
     /// Inside `[ ]` of a filter.
     Filter,
-    /// A text that begins at this offset; what it is, the spot around it says.
-    Text(u32, Box<Spot>),
+    /// Inside a text; what it is, the spot around it says.
+    Text(Box<Spot>),
 }
 
 /// The spot at `offset` and where the word begins that ends there.
@@ -95,7 +95,7 @@ pub fn spot(text: &str, offset: u32) -> (Spot, u32) {
         }
         Some(t) if t.kind == TokenKind::Text && (at < t.end || !closed(t)) => {
             let around = outside(text, &all, t.start);
-            (Spot::Text(t.start as u32 + 1, Box::new(around)), t.start as u32 + 1)
+            (Spot::Text(Box::new(around)), t.start as u32 + 1)
         }
         Some(t) if t.kind == TokenKind::Number => (Spot::Nothing, offset),
         Some(t) if matches!(t.kind, TokenKind::Word | TokenKind::Input) => {
@@ -110,8 +110,8 @@ fn outside(text: &str, all: &[Token], at: usize) -> Spot {
     let before: Vec<&Token> = all.iter().filter(|t| t.end <= at && t.kind != TokenKind::Comment).collect();
     let written = |t: &Token| &text[t.start..t.end];
     let Some(open) = block_start(text, &before) else { return top(text, &before, at) };
-    let head: Vec<&str> = before[..open].iter().rev().map_while(|t| head_word(text, t)).collect();
-    let Some(block) = head.last().and_then(|kind| BlockShape::find(kind)) else { return Spot::Nothing };
+    let mut head = before[..open].iter().rev().map_while(|t| head_word(text, t));
+    let Some(block) = head.find_map(BlockShape::find) else { return Spot::Nothing };
     // Properties of the block, up to the place.
     let (mut key, mut clause): (Option<&'static Key>, Option<String>) = (None, None);
     let mut file: Option<String> = None;
@@ -263,7 +263,7 @@ mod tests {
 
     #[test]
     fn texts_and_comments() {
-        assert!(matches!(at("scene a { rules \"x¦"), Spot::Text(17, around) if matches!(*around, Spot::Value { .. })));
+        assert!(matches!(at("scene a { rules \"x¦"), Spot::Text(around) if matches!(*around, Spot::Value { .. })));
         assert!(matches!(at("# scene¦"), Spot::Nothing));
     }
 }

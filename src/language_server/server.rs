@@ -17,6 +17,7 @@ use lsp_types::{
 };
 use serde::Serialize;
 use serde::de::DeserializeOwned;
+use serde_json::json;
 
 use super::capabilities::{capabilities, client};
 use super::derivation::Derived;
@@ -83,6 +84,7 @@ pub fn serve(connection: Connection) -> Ending {
         stage: Stage::New,
         unpublished: BTreeSet::new(),
         next_id: 0,
+        derives: false,
     };
     server.run()
 }
@@ -108,6 +110,8 @@ struct Server {
     unpublished: BTreeSet<PathBuf>,
     /// Of our own requests.
     next_id: i32,
+    /// Whether a derivation runs.
+    derives: bool,
 }
 
 impl Server {
@@ -256,12 +260,16 @@ impl Server {
                 let result = requests::execute_command::explain(&params.arguments);
                 self.respond(id, result);
             }
+            requests::execute_command::DERIVE if self.derives => {
+                self.refuse(id, ErrorCode::RequestFailed, "a derivation is running already");
+            }
             requests::execute_command::DERIVE => {
                 let work = requests::execute_command::derive(&mut self.workspace, &params.arguments);
                 let Ok(work) = work else {
                     return self.respond::<()>(id, work.map(|_| ()));
                 };
                 let ours = self.ours.clone();
+                self.derives = true;
                 std::thread::spawn(move || {
                     let done = Derived { id: Some(id), ..work.run() };
                     // The server may have ended meanwhile.
@@ -275,6 +283,7 @@ impl Server {
     /// A derivation has ended: its counts are shown.
     fn derived(&mut self, done: Derived) {
         let Derived { id, outcome } = done;
+        self.derives = false;
         let result = outcome.map(|(lenses, summary)| {
             self.workspace.lenses = lenses;
             summary
@@ -296,6 +305,7 @@ impl Server {
         }
         // A notification that cannot be read is dropped, as the protocol has it: nobody waits for an answer.
         match method.as_str() {
+            told::Initialized::METHOD if self.workspace.client.registers_watchers => self.watch_files(),
             told::DidOpenTextDocument::METHOD => read(params).into_iter().for_each(|p| self.opened(p)),
             told::DidChangeTextDocument::METHOD => read(params).into_iter().for_each(|p| self.changed(p)),
             told::DidCloseTextDocument::METHOD => read(params).into_iter().for_each(|p| self.closed(p)),
@@ -311,7 +321,11 @@ impl Server {
             }
             told::DidChangeConfiguration::METHOD => {
                 if let Some(DidChangeConfigurationParams { settings: given }) = read(params) {
+                    let explain_scheme = self.workspace.settings.explain_scheme.take();
                     self.workspace.settings = settings(given);
+                    // The editor's own, not the user's: told once.
+                    self.workspace.settings.explain_scheme =
+                        self.workspace.settings.explain_scheme.take().or(explain_scheme);
                     self.forget_everything();
                 }
             }
@@ -330,9 +344,25 @@ impl Server {
         }
     }
 
+    /// Asks the client to tell when rule files or recipes change on disk.
+    fn watch_files(&mut self) {
+        self.next_id += 1;
+        let method = told::DidChangeWatchedFiles::METHOD;
+        let watched = json!({ "watchers": [{ "globPattern": "**/*.{cga,render}" }] });
+        let registration = json!({ "id": "files", "method": method, "registerOptions": watched });
+        let params = json!({ "registrations": [registration] });
+        let method = <asked::RegisterCapability as asked::Request>::METHOD.to_owned();
+        (self.send)(Request::new(RequestId::from(self.next_id), method, params).into());
+    }
+
     fn opened(&mut self, params: DidOpenTextDocumentParams) {
         let opened = params.text_document;
-        let path = self.workspace.path(&opened.uri);
+        let mut path = self.workspace.path(&opened.uri);
+        if Language::of(&path).is_none() && uri::path(&opened.uri).is_none() {
+            // A document that was never saved has no ending yet.
+            let is_recipe = opened.language_id.ends_with("render");
+            path.as_mut_os_string().push(if is_recipe { ".render" } else { ".cga" });
+        }
         let document = Document { uri: opened.uri, version: opened.version, text: opened.text.into() };
         self.workspace.documents.open(path, document);
         self.forget_everything();
@@ -390,5 +420,8 @@ fn read<T: DeserializeOwned>(params: serde_json::Value) -> Option<T> {
 /// The settings, whether or not they come below `mansard`; those that cannot be read are the defaults.
 fn settings(mut given: serde_json::Value) -> Settings {
     let own = given.get_mut("mansard").map(serde_json::Value::take).unwrap_or(given);
-    serde_json::from_value(own).unwrap_or_default()
+    let mut settings: Settings = serde_json::from_value(own).unwrap_or_default();
+    // Editors write an empty text where nothing is set.
+    settings.recipe = settings.recipe.filter(|path| !path.as_os_str().is_empty());
+    settings
 }

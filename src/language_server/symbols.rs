@@ -10,6 +10,8 @@ use super::rule_file::{Declared, Kind, Place, RuleFile};
 use super::uri;
 use super::workspace::{Language, Workspace};
 use crate::cga::Meaning;
+use crate::cga::ast::DeclarationKind;
+use crate::source::Span;
 
 /// The declarations that the name at a place leads to.
 pub fn declarations(workspace: &mut Workspace, path: &Path, language: Language, offset: u32) -> Vec<Place> {
@@ -65,16 +67,47 @@ pub fn named_file(recipe: &RecipeFile, written: &str) -> Option<PathBuf> {
 pub fn named(file: &RuleFile, name: &str, is_kind: impl Fn(Kind) -> bool) -> Option<usize> {
     let (mut at, mut rest) = (0, name);
     while let Some((first, tail)) = rest.split_once('.') {
-        let indexed = file.index.files.get(at)?;
-        let imports = indexed.ast.declarations.iter().filter_map(|d| match &d.kind {
-            crate::cga::ast::DeclarationKind::Import(import) => Some(import),
-            _ => None,
-        });
-        let found = imports.zip(&indexed.imports).find(|(import, _)| &*import.prefix.text == first);
-        (at, rest) = ((*found?.1)?, tail);
+        at = import(file, at, first)?.1?;
+        rest = tail;
     }
     let fits = |d: &Declared| d.file == at && is_kind(d.kind) && &*d.name.text == rest;
     file.declared.iter().position(fits)
+}
+
+/// The name of an import where it is declared, and the file it leads to.
+pub fn import(file: &RuleFile, at: usize, prefix: &str) -> Option<(Span, Option<usize>)> {
+    let indexed = file.index.files.get(at)?;
+    let imports = indexed.ast.declarations.iter().filter_map(|d| match &d.kind {
+        DeclarationKind::Import(import) => Some(import),
+        _ => None,
+    });
+    let (import, target) = imports.zip(&indexed.imports).find(|(import, _)| &*import.prefix.text == prefix)?;
+    Some((import.prefix.span, *target))
+}
+
+/// Where the imports stand that a recipe's name of an attribute goes through: `lib` in `lib.height`.
+fn import_uses(
+    workspace: &mut Workspace,
+    recipe: &RecipeFile,
+    (word, text): (&recipe_file::Word, &str),
+    targets: &BTreeSet<Place>,
+) -> Vec<(u32, u32)> {
+    let recipe_file::Meaning::Attribute { file: written, name } = &word.meaning else { return Vec::new() };
+    let Some(file) = named_file(recipe, written).and_then(|path| workspace.rules(&path)) else { return Vec::new() };
+    let quote = u32::from(text[word.span.start as usize..].starts_with('"'));
+    let (mut at, mut start, mut rest) = (0, word.span.start + quote, name.as_str());
+    let mut out = Vec::new();
+    while let Some((first, tail)) = rest.split_once('.')
+        && let Some((span, target)) = import(&file, at, first)
+    {
+        let end = start + first.len() as u32;
+        if file.place(span).is_some_and(|place| targets.contains(&place)) {
+            out.push((start, end));
+        }
+        let Some(next) = target else { break };
+        (at, start, rest) = (next, end + 1, tail);
+    }
+    out
 }
 
 /// Every use of declarations called `name`, declarations themselves left out.
@@ -98,6 +131,9 @@ pub fn uses(workspace: &mut Workspace, targets: &BTreeSet<Place>, name: &str, ne
         for (number, part) in recipe.parts.iter().enumerate() {
             for word in part.words() {
                 let place = Place { path: part.path.clone(), start: word.span.start, end: word.span.end };
+                let through = import_uses(workspace, &recipe, (&word, &part.text), targets);
+                let place_of = |(start, end)| Place { path: part.path.clone(), start, end };
+                out.extend(through.into_iter().map(place_of));
                 let leads = match &word.meaning {
                     recipe_file::Meaning::Start { .. } | recipe_file::Meaning::Attribute { .. } if number == 0 => {
                         in_rules(workspace, &recipe, &word.meaning).into_iter().collect()

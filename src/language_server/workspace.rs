@@ -52,6 +52,7 @@ pub struct Client {
     pub hierarchical_symbols: bool,
     pub refreshes_lenses: bool,
     pub label_offsets: bool,
+    pub registers_watchers: bool,
 }
 
 /// The two languages.

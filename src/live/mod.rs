@@ -19,3 +19,6 @@ pub use session::{RuleFile, Session};
 pub use update::{Message, Phase, Redone, Update};
 pub use usage::{RuleUsage, usage};
 pub use watcher::{WatchError, Watcher};
+
+#[cfg(test)]
+mod tests;

@@ -177,8 +177,7 @@ fn completed(
         made.into_iter().flatten().for_each(|state| all.extend(state.derived.diagnostics.clone()));
         return Err(PipelineError::Endless(all.sorted()));
     }
-    let log = memory.log_mut();
-    (log.derived, log.kept) = (missing.len(), valid.len() - missing.len());
+    memory.note_derived(missing.len(), valid.len() - missing.len());
     for (number, state) in missing.into_iter().zip(made) {
         valid[number] = state;
     }

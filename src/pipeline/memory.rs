@@ -42,6 +42,8 @@ pub struct Memory {
     ground: Option<KeptGround>,
     assets: Option<KeptAssets>,
     log: Log,
+    /// The scene that is kept is older than the states or the ground: a build was given up between them.
+    is_behind: bool,
     /// When the build began.
     began: Option<SystemTime>,
 }
@@ -153,7 +155,14 @@ impl Memory {
         assets
     }
 
-    /// The last scene, if this build has derived nothing and laid no ground for it and everything else is the same.
+    /// Writes down how many states were derived and how many kept.
+    pub(super) fn note_derived(&mut self, derived: usize, kept: usize) {
+        self.log.derived += derived;
+        self.log.kept = kept;
+        self.is_behind |= derived > 0;
+    }
+
+    /// The last scene, if nothing was derived and no ground laid since, and everything else is the same.
     pub(super) fn unchanged(
         &self,
         spec: &SceneSpec,
@@ -162,8 +171,7 @@ impl Memory {
         assets: &Arc<FileAssets>,
     ) -> Option<Arc<BuiltScene>> {
         let kept = self.scene.as_ref()?;
-        let is_same = self.log.derived == 0
-            && !self.log.ground
+        let is_same = !self.is_behind
             && kept.fineness == fineness
             && kept.built.record.name == spec.name
             && Arc::ptr_eq(&kept.prepared, prepared)
@@ -178,7 +186,7 @@ impl Memory {
         prepared: Arc<PreparedScene>,
         assets: Arc<FileAssets>,
     ) {
-        self.log.scene = true;
+        (self.log.scene, self.is_behind) = (true, false);
         if self.keeps {
             self.scene = Some(KeptScene { built: built.clone(), fineness, prepared, assets });
         }
@@ -200,7 +208,7 @@ impl Memory {
         {
             return Ok(kept.mesh.clone());
         }
-        self.log.ground = true;
+        (self.log.ground, self.is_behind) = (true, true);
         let mesh = Arc::new(build_ground(&area, terrain, tolerance_m, &layers)?);
         if self.keeps {
             let (terrain, mesh) = (terrain.clone(), mesh.clone());

@@ -63,7 +63,7 @@ impl Access {
 
     /// The same folders; every path that is looked for from now on is written down.
     pub fn noting(&self, looked: Looked) -> Access {
-        Access { roots: self.roots.clone(), looked: Some(looked), overlay: self.overlay.clone() }
+        Access { looked: Some(looked), ..self.clone() }
     }
 
     /// Writes down a path that is looked for, whether it exists or not, or a folder that is listed.

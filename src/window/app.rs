@@ -74,7 +74,10 @@ impl App {
     }
 
     fn open(&self, event_loop: &ActiveEventLoop) -> Result<Glass, WindowError> {
+        let monitor = event_loop.primary_monitor().or_else(|| event_loop.available_monitors().next());
+        let most = monitor.map(|monitor| monitor.size().to_logical::<u32>(monitor.scale_factor()));
         let (width, height) = self.options.size;
+        let (width, height) = most.map_or((width, height), |most| (width.min(most.width), height.min(most.height)));
         let attributes = Window::default_attributes()
             .with_title(format!("{} · Mansard", self.desk.name))
             .with_inner_size(LogicalSize::new(width, height))

@@ -21,5 +21,6 @@ mod syncw;
 mod tidy;
 mod validation;
 mod verify;
+mod watch;
 mod window;
 mod workshop;

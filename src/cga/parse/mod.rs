@@ -58,6 +58,8 @@ pub fn parse(file: &SourceFile) -> (Ast, Diagnostics) {
         let Err(error) = Grammar::parse(Rule::one_declaration, &tokens.letters[at..]) else { break };
         let problem = explain(&Reading { file, tokens: &tokens, first: at }, &error);
         builder.diagnostics.push(problem.diagnostic);
+        // They stood in front of what could not be read.
+        builder.pending.clear();
         match problem.unclosed_until {
             Some(offset) => {
                 tokens = Rc::new(lex(text, offset));

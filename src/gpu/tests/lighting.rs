@@ -82,7 +82,7 @@ fn rolling(scene: &mut Scene) {
     let count = mesh.triangles.len() as u32;
     mesh.groups.push(crate::scene::Group { material: town::GROUND, first: 0, count });
     town::plane(scene, (0.0, 0.0), (1.0, 1.0), town::GROUND);
-    scene.objects[0].mesh = mesh;
+    scene.objects[0].mesh = mesh.into();
 }
 
 #[test]

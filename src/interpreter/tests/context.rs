@@ -21,12 +21,13 @@ fn batch(rules: &str, lots: &[&[(f64, f64)]]) -> Vec<Vec<String>> {
     // Backwards.
     let mut surveys: Vec<Option<Survey>> = (0..lots.len()).map(|_| None).collect();
     (0..lots.len()).rev().for_each(|i| surveys[i] = batch.survey(i));
-    let again: Vec<_> = (0..lots.len()).rev().map(|i| batch.derive(i, &surveys).prints).collect();
+    let again: Vec<_> = (0..lots.len()).rev().map(|i| batch.derive(i, &surveys, &NoAssets).prints).collect();
     assert!(again.into_iter().rev().eq(prints.iter().cloned()), "the order does not matter");
     // Each on a thread of its own.
     let threads: Vec<_> = std::thread::scope(|scope| {
         let (batch, surveys) = (&batch, &surveys);
-        let handles: Vec<_> = (0..lots.len()).map(|i| scope.spawn(move || batch.derive(i, surveys).prints)).collect();
+        let handles: Vec<_> =
+            (0..lots.len()).map(|i| scope.spawn(move || batch.derive(i, surveys, &NoAssets).prints)).collect();
         handles.into_iter().map(|h| h.join().expect("no panic")).collect()
     });
     assert_eq!(threads, prints);

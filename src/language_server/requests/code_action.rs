@@ -18,12 +18,12 @@ pub fn code_action(workspace: &mut Workspace, params: CodeActionParams) -> Resul
     let Some(text) = workspace.lined(&path) else { return Ok(Vec::new()) };
     let mut out = Vec::new();
     for diagnostic in params.context.diagnostics.iter().filter(|d| d.source.as_deref() == Some("mansard")) {
-        for (title, edit) in fixes(&text, diagnostic) {
+        for (number, (title, edit)) in fixes(&text, diagnostic).into_iter().enumerate() {
             let action = CodeAction {
                 title,
                 kind: Some(CodeActionKind::QUICKFIX),
                 diagnostics: Some(vec![diagnostic.clone()]),
-                is_preferred: Some(true),
+                is_preferred: Some(number == 0),
                 ..CodeAction::default()
             };
             // The map of changes is written by hand: its type hashes URIs.

@@ -21,25 +21,25 @@ pub fn code_lens(workspace: &mut Workspace, params: CodeLensParams) -> Result<Ve
     let mut out = Vec::new();
     for (number, rule) in file.own().filter(|d| d.kind == Kind::Rule).enumerate() {
         let key = Rule::new(path.clone(), &rule.name.text, rule.parameters.len());
-        let count = workspace.lenses.counts.get(&key);
-        let title = match count {
-            Some(count) => told(*count, &workspace.lenses.subject),
-            None if number == 0 => "Derive".to_owned(),
-            None => continue,
-        };
-        out.push(CodeLens {
+        let subject = &workspace.lenses.subject;
+        let counted = workspace.lenses.counts.get(&key).map(|count| told(*count));
+        let offered = (number == 0).then(|| match subject.is_empty() {
+            true => "Derive".to_owned(),
+            false => format!("Derived: {subject}"),
+        });
+        out.extend(counted.into_iter().chain(offered).map(|title| CodeLens {
             range: lines.of(rule.name.span),
             command: Some(Command { title, command: DERIVE.to_owned(), arguments: Some(vec![json!(uri)]) }),
             data: None,
-        });
+        }));
     }
     Ok(out)
 }
 
-fn told(count: Count, subject: &str) -> String {
-    let leaves = if count.leaves == 1 { "1 leaf".to_owned() } else { format!("{} leaves", grouped(count.leaves)) };
-    match count.milliseconds {
-        Some(time) => format!("{leaves} · {time:.0} ms ({subject})"),
-        None => leaves,
+fn told(count: Count) -> String {
+    match (count.calls, count.leaves) {
+        (0, _) => "not called".to_owned(),
+        (_, 1) => format!("1 leaf · {:.0} ms", count.milliseconds),
+        (_, leaves) => format!("{} leaves · {:.0} ms", grouped(leaves), count.milliseconds),
     }
 }

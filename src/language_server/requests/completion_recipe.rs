@@ -38,7 +38,7 @@ pub fn offers(workspace: &mut Workspace, path: &Path, text: &str, offset: u32) -
             let calls = calls.into_iter().chain([("normal", "normal($1, $2)")]);
             calls.map(|(name, form)| Offer::new(name, ItemKind::FUNCTION).snippet(form)).chain(inputs(&file)).collect()
         }
-        Spot::Text(_, around) => {
+        Spot::Text(around) => {
             let endings: &[&str] = match &**around {
                 Spot::Value { key, clause, .. } if names_file(key.key, clause.as_deref()) => {
                     if matches!(key.key, "rules" | "level") { &["cga"] } else { MAPS }

@@ -14,6 +14,7 @@ use crate::language_server::context::{Call, Context, Spot, context};
 use crate::language_server::describe;
 use crate::language_server::manual;
 use crate::language_server::rule_file::{Declared, Kind, RuleFile};
+use crate::language_server::symbols::import;
 use crate::language_server::workspace::Workspace;
 use crate::source::Project;
 
@@ -115,13 +116,7 @@ fn own<'f>(file: &'f RuleFile, begun: &str, is_kind: impl Fn(Kind) -> bool + 'f)
 }
 
 fn import_named(file: &RuleFile, at: usize, prefix: &str) -> Option<usize> {
-    let indexed = file.index.files.get(at)?;
-    let imports = indexed.ast.declarations.iter().filter_map(|d| match &d.kind {
-        DeclarationKind::Import(import) => Some(import),
-        _ => None,
-    });
-    let (_, target) = imports.zip(&indexed.imports).find(|(import, _)| &*import.prefix.text == prefix)?;
-    *target
+    import(file, at, prefix)?.1
 }
 
 fn declared_offer(file: &RuleFile, name: String, declared: &Declared) -> Offer {

@@ -36,9 +36,9 @@ fn in_rules(workspace: &mut Workspace, path: &Path, offset: u32) -> Option<(u32,
     let mut texts: Vec<String> = Vec::new();
     for meaning in meanings {
         let text = match meaning {
-            Meaning::Operation(operation) => manual::operation(operation),
-            Meaning::BuiltinFunction(function) => manual::function(function),
-            Meaning::BuiltinAttribute(name) => manual::attribute(name),
+            Meaning::Operation(operation) => manual::operation(operation).to_owned(),
+            Meaning::BuiltinFunction(function) => manual::function(function).to_owned(),
+            Meaning::BuiltinAttribute(name) => manual::attribute(name).to_owned(),
             Meaning::Word(word) => format!("`{}`: a keyword of the language", word.text()),
             Meaning::Leaf => "A shape without a rule: a leaf of the tree.".to_owned(),
             own => file.declaration(own).map(|declared| describe::declared(&file, declared)).unwrap_or_default(),
@@ -63,11 +63,11 @@ fn keyword(text: &LinedText, offset: u32) -> Option<(u32, u32, String)> {
     } else if let Some((_, said)) = manual::KEYWORDS.iter().find(|(keyword, _)| *keyword == word) {
         Some((*said).to_owned())
     } else if let Some(operation) = Operation::from_name(word) {
-        Some(manual::operation(operation))
+        Some(manual::operation(operation).to_owned())
     } else if let Some(function) = Function::from_name(word) {
-        Some(manual::function(function))
+        Some(manual::function(function).to_owned())
     } else {
-        Attr::from_name(word).map(|row| manual::attribute(row.name))
+        Attr::from_name(word).map(|row| manual::attribute(row.name).to_owned())
     };
     markdown.map(|markdown| (place.start, place.end, markdown))
 }

@@ -16,7 +16,9 @@ pub fn references(workspace: &mut Workspace, params: ReferenceParams) -> Result<
     let targets: BTreeSet<Place> = declarations(workspace, &path, language, offset).into_iter().collect();
     let Some(first) = targets.first() else { return Ok(Vec::new()) };
     let Some(text) = workspace.text(&first.path) else { return Ok(Vec::new()) };
-    let name = last_part(&text[first.start as usize..first.end as usize]).to_owned();
+    // A file that changed unseen has other text there by now.
+    let Some(written) = text.get(first.start as usize..first.end as usize) else { return Ok(Vec::new()) };
+    let name = last_part(written).to_owned();
     let mut found = uses(workspace, &targets, &name, &path);
     if params.context.include_declaration {
         found.extend(targets);

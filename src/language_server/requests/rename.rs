@@ -60,7 +60,8 @@ fn renamable(
         return Err(Refusal::failed("this is no name that was declared in a file of the project"));
     }
     let place = Place { path: path.to_owned(), start: span.start, end: span.end };
-    let name = last_part(text[span.start as usize..span.end as usize].trim_matches('"'));
+    let written = text.get(span.start as usize..span.end as usize).unwrap_or_default();
+    let name = last_part(written.trim_matches('"'));
     Ok(narrowed(text, &place, name))
 }
 

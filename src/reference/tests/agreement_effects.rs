@@ -12,7 +12,7 @@ use crate::interpreter::material::{Material, OpacityMode};
 use crate::plan::demand::{Ambient, Look, Output, Projection, Shadows, State, ViewDemand};
 use crate::plan::effects::{Bands, BitDepth, Clouds, GroundKind, GroundState, Haze, NirLight, Sensor};
 use crate::reference::Options;
-use crate::scene::{Presence, Scene, SceneClass};
+use crate::scene::{Presence, Scene, SceneClass, TriMesh};
 use crate::sensor;
 
 const IDEAL: Sensor = Sensor { depth: BitDepth::Sixteen, ..sensor::PLAIN };
@@ -179,7 +179,7 @@ fn masked_materials_have_the_holes_of_their_own_cut_off() {
         scene.materials[town::FENCE as usize] = material(mode, opacity, cutoff);
         let face = [(-8.0, -8.0), (-8.0, 8.0), (8.0, 8.0), (8.0, -8.0)].map(|(x, z)| DVec3::new(x, 0.0, z)).to_vec();
         let building = town::add(&mut scene, SceneClass::Building, Presence::Both, &[(face, town::FENCE)]);
-        let mesh = &mut scene.objects[building].mesh;
+        let mesh: &mut TriMesh = &mut scene.objects[building].mesh;
         for (p, uv) in mesh.positions.iter().zip(&mut mesh.uvs) {
             *uv = glam::Vec2::new(((p.x + 8.0) / 16.0) as f32, ((p.z + 8.0) / 16.0) as f32);
         }

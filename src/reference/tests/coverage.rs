@@ -79,7 +79,7 @@ fn holes_of_a_texture_are_not_there_and_v_runs_up() {
     let picture = image::RgbaImage::from_fn(16, 16, |_, y| image::Rgba(if y < 8 { [255; 4] } else { [0, 0, 0, 255] }));
     scene.textures[0].1 = std::sync::Arc::new(picture);
     let plane = town::plane(&mut scene, (-16.0, -16.0), (16.0, 16.0), town::TEXTURED);
-    let mesh = &mut scene.objects[plane].mesh;
+    let mesh: &mut crate::scene::TriMesh = &mut scene.objects[plane].mesh;
     for (p, uv) in mesh.positions.iter().zip(&mut mesh.uvs) {
         *uv = glam::Vec2::new(0.5, if p.z < 0.0 { 1.0 } else { 0.0 });
     }

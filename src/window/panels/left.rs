@@ -2,14 +2,14 @@
 
 use egui::{RichText, Ui};
 
-use super::Action;
+use super::{Action, fixed};
 use crate::live::SunAngles;
 use crate::window::desk::{Desk, Show};
 use crate::window::theme;
 
 pub fn show(ui: &mut Ui, desk: &mut Desk, actions: &mut Vec<Action>) {
     egui::Panel::left("choices").default_size(248.0).size_range(210.0..=360.0).frame(theme::side()).show(ui, |ui| {
-        egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        fixed(ui, |ui| {
             heading(ui, desk);
             state(ui, desk, actions);
             views(ui, desk, actions);
@@ -107,7 +107,7 @@ fn sun(ui: &mut Ui, desk: &mut Desk, actions: &mut Vec<Action>) {
     theme::card().show(ui, |ui| {
         let SunAngles { mut elevation, mut azimuth } = now;
         ui.spacing_mut().slider_width = (ui.available_width() - 120.0).max(60.0);
-        let mut slider = |ui: &mut Ui, name: &str, value: &mut f64, range: std::ops::RangeInclusive<f64>| {
+        let slider = |ui: &mut Ui, name: &str, value: &mut f64, range: std::ops::RangeInclusive<f64>| {
             ui.horizontal(|ui| {
                 ui.add_sized([56.0, 20.0], egui::Label::new(name).halign(egui::Align::LEFT));
                 ui.add(egui::Slider::new(value, range).max_decimals(1).suffix("°")).changed()

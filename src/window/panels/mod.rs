@@ -42,7 +42,7 @@ pub fn show(ui: &mut egui::Ui, desk: &mut Desk, canvas: &mut Canvas, actions: &m
     egui::Panel::right("facts").default_size(330.0).size_range(260.0..=520.0).frame(super::theme::side()).show(
         ui,
         |ui| {
-            egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+            fixed(ui, |ui| {
                 selection::show(ui, desk, actions);
                 attributes::show(ui, desk, actions);
             });
@@ -50,4 +50,13 @@ pub fn show(ui: &mut egui::Ui, desk: &mut Desk, canvas: &mut Canvas, actions: &m
     );
     picture::show(ui, desk, canvas, actions);
     help::show(ui, desk);
+}
+
+/// Contents that scroll and never widen their panel.
+fn fixed(ui: &mut egui::Ui, add: impl FnOnce(&mut egui::Ui)) {
+    let rect = ui.available_rect_before_wrap();
+    let mut inside = ui.new_child(egui::UiBuilder::new().max_rect(rect));
+    inside.set_clip_rect(rect.intersect(ui.clip_rect()));
+    egui::ScrollArea::vertical().auto_shrink(false).show(&mut inside, add);
+    ui.advance_cursor_after_rect(rect);
 }

@@ -44,7 +44,7 @@ fn place(ui: &Ui, name: &str, align: Align2, area: Rect, inset: egui::Vec2, add:
         if align.y() == egui::Align::Max { -1.0 } else { 1.0 },
     );
     let at = align.pos_in_rect(&area) + inset * sign;
-    egui::Area::new(egui::Id::new(name))
+    egui::Area::new(egui::Id::unique(name))
         .pivot(align)
         .fixed_pos(at)
         .interactable(false)

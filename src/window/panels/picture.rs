@@ -276,7 +276,7 @@ fn bar(ui: &Ui, desk: &mut Desk, canvas: &Canvas) {
     let Some(rect) = canvas.rect else { return };
     let x = rect.left() + rect.width() * desk.bar as f32;
     let grip = Rect::from_x_y_ranges(x - 7.0..=x + 7.0, rect.y_range());
-    let response = ui.interact(grip, ui.id().with("bar"), Sense::drag());
+    let response = ui.interact(grip, ui.scope_id().with("bar"), Sense::drag());
     let response = response.on_hover_cursor(egui::CursorIcon::ResizeHorizontal);
     if let Some(at) = response.interact_pointer_pos().filter(|_| response.dragged()) {
         desk.bar = f64::from((at.x - rect.left()) / rect.width()).clamp(0.02, 0.98);

@@ -117,7 +117,7 @@ proptest! {
         viewpoint.orbit(5.0, 2.0, 6.0);
         let before = viewpoint.camera(SIZE, BOUNDS);
         let anchor = point_at(&before, Pixel { x, y }, 600.0);
-        let cursor = Pixel { x: (x + dx).clamp(0.0, 800.0), y: (y + dy).clamp(0.0, 500.0) };
+        let cursor = Pixel { x: f64::clamp(x + dx, 0.0, 800.0), y: f64::clamp(y + dy, 0.0, 500.0) };
         viewpoint.pan(anchor, cursor, &before);
         let back = project(&viewpoint.camera(SIZE, BOUNDS), anchor).expect("in front");
         prop_assert!((back.x - cursor.x).abs() < 1e-5 && (back.y - cursor.y).abs() < 1e-5, "{:?} for {:?}", back, cursor);

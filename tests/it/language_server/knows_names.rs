@@ -68,7 +68,7 @@ fn references_are_found_in_files_that_are_not_open() {
         "textDocument": { "uri": editor.uri("main.cga") }, "position": at[0], "context": { "includeDeclaration": true },
     });
     let found = editor.request("textDocument/references", params).expect("references");
-    assert_eq!(places(&editor, &found), ["main.cga:1:5", "main.cga:2:13", "town.render:4:43"]);
+    assert_eq!(places(&editor, &found), ["main.cga:1:5", "main.cga:2:13", "town.render:4:44"]);
     let marked = MAIN.replace("Other(height)", "Other(h¦eight)");
     let lights = asked(&mut editor, "textDocument/documentHighlight", "main.cga", &marked).expect("highlights");
     let kinds: Vec<&Value> = lights.as_array().expect("a list").iter().map(|light| &light["kind"]).collect();
@@ -79,6 +79,24 @@ fn renamed(editor: &mut Editor, name: &str, marked: &str, new: &str) -> Result<V
     let (_, positions) = marks(marked);
     let params = json!({ "textDocument": { "uri": editor.uri(name) }, "position": positions[0], "newName": new });
     editor.request("textDocument/rename", params)
+}
+
+#[test]
+fn the_name_of_an_import_is_changed_in_recipes_too() {
+    let main = "import lib : \"lib.cga\"\n@StartRule\nLot --> lib.Wall(lib.depth)\n";
+    let recipe = "scene town {\n  map \"town.osm\"\n  rules \"main.cga\" for building { \"lib.depth\" = 4 }\n}\n";
+    let lib = "attr depth = 3\nWall(h) --> extrude(h)\n";
+    let mut editor = Editor::new(&[("lib.cga", lib), ("main.cga", main), ("town.render", recipe)]);
+    editor.open("main.cga", main);
+    let edit = renamed(&mut editor, "main.cga", &main.replace("import lib", "import l¦ib"), "walls").expect("a rename");
+    let changed = |name: &str, text: &str| {
+        edited(text, edit["changes"][editor.uri(name)].as_array().expect("edits of this file"))
+    };
+    assert_eq!(
+        changed("main.cga", main),
+        main.replace("import lib", "import walls").replace("lib.W", "walls.W").replace("lib.d", "walls.d")
+    );
+    assert_eq!(changed("town.render", recipe), recipe.replace("lib.depth", "walls.depth"));
 }
 
 /// All files after the edits, one below the other.

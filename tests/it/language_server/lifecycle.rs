@@ -55,6 +55,61 @@ fn a_request_that_was_taken_back_is_answered_as_such() {
 }
 
 #[test]
+fn files_are_watched_where_the_client_can() {
+    let mut editor = Editor::silent(&[("lib.cga", "Wall --> NIL\n")]);
+    editor.initialize(json!({ "workspace": { "didChangeWatchedFiles": { "dynamicRegistration": true } } }));
+    editor.open("main.cga", "import lib : \"lib.cga\"\n@StartRule\nLot --> lib.Wall\n");
+    assert!(editor.diagnostics("main.cga", 1).is_empty());
+    let asked = editor.notes.iter().find(|note| note["method"] == json!("client/registerCapability"));
+    let asked = asked.expect("a registration");
+    assert_eq!(asked["params"]["registrations"][0]["method"], json!("workspace/didChangeWatchedFiles"));
+    // Another program writes the library.
+    std::fs::write(editor.path("lib.cga"), "Roof --> NIL\n").expect("writable");
+    let change = json!({ "uri": editor.uri("lib.cga"), "type": 2 });
+    editor.notify("workspace/didChangeWatchedFiles", json!({ "changes": [change] }));
+    assert_eq!(editor.diagnostics("main.cga", 1)[0]["code"], json!("cga::undefined-rule"));
+}
+
+#[test]
+fn settings_come_as_options_and_as_configuration() {
+    let files =
+        [("lot.cga", "attr height = 3\n@StartRule\nLot --> extrude(height)\n"), ("a.osm", "<osm version=\"0.6\"/>")];
+    let mut editor = Editor::silent(&files);
+    let folder = json!({ "uri": editor.uri(""), "name": "test" });
+    let options = json!({ "set": ["rules=lot.cga"], "explainScheme": "pages" });
+    let params = json!({ "capabilities": {}, "workspaceFolders": [folder], "initializationOptions": options });
+    editor.request("initialize", params).expect("initialize succeeds");
+    editor.notify("initialized", json!({}));
+    let recipe =
+        "input rules : text\ninput map : files\nscene a { map $map; rules $rules for building { hight = 1 } }\n";
+    editor.open("a.render", recipe);
+    // The map is not given: the recipe is checked as far as it goes, which is not into its rules.
+    assert_eq!(editor.diagnostics("a.render", 1), Vec::<serde_json::Value>::new());
+    let set =
+        [format!("rules={}", editor.path("lot.cga").display()), format!("map={}", editor.path("a.osm").display())];
+    let section = json!({ "mansard": { "recipe": "", "set": set, "allow": [], "path": "mansard" } });
+    editor.notify("workspace/didChangeConfiguration", json!({ "settings": section }));
+    let found = editor.diagnostics("a.render", 1);
+    assert_eq!(found[0]["code"], json!("render::unknown-attribute"), "{found:?}");
+    editor.open("b.cga", "Lot --> extrud(3)\n");
+    let found = editor.diagnostics("b.cga", 1);
+    let href = &found[0]["codeDescription"]["href"];
+    assert_eq!(href, &json!("pages:cga::unknown-operation.md"), "the scheme was told once");
+}
+
+#[test]
+fn a_document_without_a_file_is_served() {
+    let mut editor = Editor::new(&[]);
+    let document =
+        json!({ "uri": "untitled:Untitled-1", "languageId": "cga", "version": 1, "text": "Lot --> extrude(3)\n" });
+    editor.notify("textDocument/didOpen", json!({ "textDocument": document }));
+    let params =
+        json!({ "textDocument": { "uri": "untitled:Untitled-1" }, "position": { "line": 0, "character": 10 } });
+    let hover = editor.request("textDocument/hover", params).expect("an answer");
+    assert!(hover["contents"]["value"].as_str().is_some_and(|said| said.contains("extrude(number)")), "{hover}");
+}
+
+#[test]
 fn commands_that_do_not_exist_are_refused() {
     let mut editor = Editor::new(&[]);
     let error = editor

@@ -53,7 +53,7 @@ fn object(scene: &mut Scene, class: SceneClass, ground: &GroundMesh, of: &dyn Fn
         groups: vec![Group { material: town::GROUND, first: 0, count }],
     };
     let number = town::add(scene, class, Presence::Both, &[]);
-    scene.objects[number].mesh = mesh;
+    scene.objects[number].mesh = mesh.into();
 }
 
 fn classes(scene: &Scene, camera: Camera) -> ViewDemand {

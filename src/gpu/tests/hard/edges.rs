@@ -153,7 +153,7 @@ fn tessellated(cells: u32) -> Scene {
     mesh.groups.push(Group { material: town::GROUND, first: 0, count });
     let mut scene = town::empty();
     town::add(&mut scene, SceneClass::Building, Presence::Both, &[]);
-    scene.objects[0].mesh = mesh;
+    scene.objects[0].mesh = mesh.into();
     scene
 }
 

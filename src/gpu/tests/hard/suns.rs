@@ -107,7 +107,7 @@ fn hills(height: f64) -> Scene {
     mesh.groups.push(Group { material: town::GROUND, first: 0, count });
     let mut scene = town::empty();
     town::plane(&mut scene, (0.0, 0.0), (1.0, 1.0), town::GROUND);
-    scene.objects[0].mesh = mesh;
+    scene.objects[0].mesh = mesh.into();
     scene
 }
 
