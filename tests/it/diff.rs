@@ -216,7 +216,7 @@ fn output_folders_with_pictures() {
     let picture = image::open(shop.path("pages/town_top_1.png")).expect("a picture");
     assert!(picture.width() > 3 * 288 && picture.height() > 5 * 288, "{} x {}", picture.width(), picture.height());
     let page = std::fs::read_to_string(shop.path("pages/diff.html")).expect("written");
-    assert_eq!(page.matches("data:image/png").count(), 2);
+    assert_eq!(page.matches("data:image/jpeg").count(), 2);
     assert!(!page.contains("<script") && page.contains("town_top_2"), "one page, no script");
 
     // A recipe against what was made of it: files hold less precision, and all of it is the same.
