@@ -42,7 +42,7 @@ pub struct BuiltScene {
     pub assignments: Vec<Assignment>,
     /// Only where mesh checks were asked for.
     pub validation: Option<Validation>,
-    /// Textures and geometry files that rules named.
+    /// Textures and geometry files that rules named; with a memory those that were read since any of them changed.
     pub files: Vec<InputFile>,
     /// Mistakes met while deriving.
     pub diagnostics: Diagnostics,

@@ -122,6 +122,10 @@ impl Memory {
         if let (Some(began), Some(kept)) = (self.began, &self.assets) {
             self.files.learn(&kept.looked.paths(), began);
         }
+        // A map that was written while it was read is read again.
+        if !self.site.as_ref().is_some_and(|site| site.files().all(|path| self.files.is_untouched(path))) {
+            self.site = None;
+        }
     }
 
     pub(super) fn log_mut(&mut self) -> &mut Log {
