@@ -234,14 +234,18 @@ impl Reader<'_> {
                     top.mode = Mode::Header;
                 }
             }
-            _ if self.is_name(i) && self.top().mode == Mode::Header && self.top().open == b'(' => {
-                if self.tokens.letter(i + 1) != letter::DEFINE {
-                    let name = self.name(i).to_owned();
-                    self.locals.push(name);
-                }
+            _ if self.is_name(i) && self.declares(i) => {
+                let name = self.name(i).to_owned();
+                self.locals.push(name);
             }
             _ => {}
         }
+    }
+
+    /// Whether a name is a parameter; what `:=` follows is taken there.
+    fn declares(&mut self, i: usize) -> bool {
+        let in_header = self.top().mode == Mode::Header && self.top().open == b'(';
+        in_header && self.tokens.letter(i + 1) != letter::DEFINE
     }
 
     /// Behind a condition, a percentage, a selector or a size.
@@ -278,7 +282,10 @@ impl Reader<'_> {
 
     fn open_block(&mut self, i: usize) {
         let owner = self.owner(i);
-        let is_value = self.top().mode != Mode::Sequence;
+        // A block inside a block stands where its sizes do, and holds what it holds.
+        let nested = self.top().colons.0 > 0 && matches!(self.tokens.letter(i.wrapping_sub(1)), b'{' | b'|');
+        let around = if nested { self.top().body } else { self.top().mode };
+        let is_value = around != Mode::Sequence;
         let body = if is_value { Mode::Expression } else { Mode::Sequence };
         let (colons, mode) = match owner.as_str() {
             "splitAndSetbackPerimeter" => (2, Mode::Expression),

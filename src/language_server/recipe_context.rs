@@ -35,8 +35,8 @@ pub fn tokens(text: &str) -> Vec<Token> {
             continue;
         } else if c == '#' || rest.starts_with("//") {
             (TokenKind::Comment, line)
-        } else if rest.starts_with("/*") {
-            (TokenKind::Comment, rest[2..].find("*/").map_or(rest.len(), |end| end + 4))
+        } else if let Some(inner) = rest.strip_prefix("/*") {
+            (TokenKind::Comment, inner.find("*/").map_or(rest.len(), |end| end + 4))
         } else if c == '"' {
             (TokenKind::Text, rest[1..line].find('"').map_or(line, |end| end + 2))
         } else if c == '$' {
@@ -134,7 +134,7 @@ fn outside(text: &str, all: &[Token], at: usize) -> Spot {
             (TokenKind::Word, word) if braces == 0 && brackets == 0 && !comma => {
                 let is_clause = key.is_some_and(|k| k.clauses.contains(&word));
                 match block.key(word) {
-                    Some(found) if key.is_none() || newline && !is_clause || !is_clause => {
+                    Some(found) if key.is_none() || newline || !is_clause => {
                         (key, clause, file) = (Some(found), None, None);
                     }
                     _ if is_clause => clause = Some(word.to_owned()),

@@ -315,9 +315,7 @@ impl Server {
                 }
             }
             told::DidChangeWatchedFiles::METHOD => {
-                if read::<DidChangeWatchedFilesParams>(params).is_some() {
-                    self.forget_everything();
-                }
+                read(params).into_iter().for_each(|DidChangeWatchedFilesParams { .. }| self.forget_everything());
             }
             told::DidChangeConfiguration::METHOD => {
                 if let Some(DidChangeConfigurationParams { settings: given }) = read(params) {

@@ -194,8 +194,8 @@ mod tests {
 
     #[test]
     fn every_name_leads_to_its_declaration() {
-        let main = "import lib : \"lib.cga\" (height = 3)\nattr w = 2\nf(x) = x * w + scope.sx\n\
-                    Lot(h) --> extrude(world.up, h) comp(f) { inside : lib.Wall | top & w > 1 : Roof. }\n\
+        let main = "import lib : \"lib.cga\" (height = 3)\nattr w = 2\ng(x) = x * w + scope.sx\n\
+                    Lot(h) --> extrude(world.up, h) comp(f) { inside : lib.Wall | top && w > 1 : Roof. }\n\
                     lib.Ext --> set(w, rand(1, 2)) Lot(lib.height)\n";
         let lib = "attr height = 1\nattr w = 7\nWall --> Ext\nextension Ext --> NIL\n";
         insta::assert_snapshot!(meanings(&[("main.cga", main), ("lib.cga", lib)]).join("\n"));

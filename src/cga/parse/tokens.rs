@@ -99,6 +99,10 @@ impl Tokens {
         self.places.len()
     }
 
+    pub fn is_empty(&self) -> bool {
+        self.places.is_empty()
+    }
+
     /// The letter of token `index`, 0 behind the last.
     pub fn letter(&self, index: usize) -> u8 {
         self.letters.as_bytes().get(index).copied().unwrap_or(0)

@@ -76,12 +76,10 @@ fn fixes(text: &LinedText, diagnostic: &Diagnostic) -> Vec<(String, TextEdit)> {
                 out.push((format!("Make `{written}.` a leaf"), edit));
             }
         }
-        codes::NEEDLESS_DOT => {
-            // The dot stands behind the name and its arguments; only the plain form is mended.
-            if text.text[end as usize..].starts_with('.') {
-                let range = lines.range(end, end + 1);
-                out.push(("Take the dot away".to_owned(), TextEdit { range, new_text: String::new() }));
-            }
+        // The dot stands behind the name and its arguments; only the plain form is mended.
+        codes::NEEDLESS_DOT if text.text[end as usize..].starts_with('.') => {
+            let range = lines.range(end, end + 1);
+            out.push(("Take the dot away".to_owned(), TextEdit { range, new_text: String::new() }));
         }
         _ => {}
     }

@@ -37,9 +37,16 @@ pub fn code_lens(workspace: &mut Workspace, params: CodeLensParams) -> Result<Ve
 }
 
 fn told(count: Count) -> String {
-    match (count.calls, count.leaves) {
+    let Count { calls, leaves, milliseconds } = count;
+    let some = |number: u64, one: &str, many: &str| match number {
+        1 => format!("1 {one}"),
+        number => format!("{} {many}", grouped(number)),
+    };
+    let time = if milliseconds < 10.0 { format!("{milliseconds:.1} ms") } else { format!("{milliseconds:.0} ms") };
+    match (calls, leaves) {
         (0, _) => "not called".to_owned(),
-        (_, 1) => format!("1 leaf · {:.0} ms", count.milliseconds),
-        (_, leaves) => format!("{} leaves · {:.0} ms", grouped(leaves), count.milliseconds),
+        // A rule that only leads to others.
+        (calls, 0) => format!("{} · {time}", some(calls, "call", "calls")),
+        (_, leaves) => format!("{} · {time}", some(leaves, "leaf", "leaves")),
     }
 }

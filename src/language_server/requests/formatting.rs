@@ -27,7 +27,8 @@ fn difference(old: &str, new: &str) -> Option<(u32, u32, String)> {
     if old == new {
         return None;
     }
-    let common = |a: &str, b: &str| a.lines().zip(b.lines()).take_while(|(a, b)| a == b).count();
+    let common =
+        |a: &str, b: &str| a.split_inclusive('\n').zip(b.split_inclusive('\n')).take_while(|(a, b)| a == b).count();
     let skip = |text: &str, lines: usize| text.split_inclusive('\n').take(lines).map(str::len).sum::<usize>();
     let lines = common(old, new);
     let (start, new_start) = (skip(old, lines), skip(new, lines));

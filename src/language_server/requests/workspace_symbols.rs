@@ -1,7 +1,7 @@
 //! `workspace/symbol`: declarations of all rule files and blocks of all recipes whose name holds the letters of the query
 //! in their order.
 
-use std::path::PathBuf;
+use std::path::Path;
 
 use lsp_types::{Location, SymbolInformation, SymbolKind, WorkspaceSymbolParams};
 
@@ -41,14 +41,14 @@ pub fn workspace_symbols(
 }
 
 /// Declarations of one file, parsed alone: its imports are files of the workspace themselves.
-fn of_rules(workspace: &Workspace, path: &PathBuf, query: &str, found: &mut Vec<(String, SymbolKind, Place, String)>) {
+fn of_rules(workspace: &Workspace, path: &Path, query: &str, found: &mut Vec<(String, SymbolKind, Place, String)>) {
     let Some(text) = workspace.text(path) else { return };
     let mut sources = crate::source::SourceMap::default();
     let (ast, _) = crate::cga::parse::parse(&sources.add(path.display().to_string(), text));
     let file = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
     for (name, kind) in ast.declarations.iter().map(|d| declared(&d.kind)) {
         if fits(&name.text, query) {
-            let place = Place { path: path.clone(), start: name.span.start, end: name.span.end };
+            let place = Place { path: path.to_owned(), start: name.span.start, end: name.span.end };
             found.push((name.text.to_string(), symbol_kind(kind), place, file.clone()));
         }
     }
