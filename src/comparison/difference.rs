@@ -50,7 +50,7 @@ pub struct SceneDifference {
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct ImagesDifference {
     pub compared: usize,
-    /// Those that differ; what differs most comes first.
+    /// Those that differ; labels come first, and of one kind what differs most.
     pub images: Vec<ImageDifference>,
 }
 
@@ -167,7 +167,8 @@ fn compare_images(
     let found: Vec<Option<ImageDifference>> = jobs.par_iter().map(one).collect::<Result<_, _>>()?;
     let mut images: Vec<ImageDifference> = found.into_iter().flatten().collect();
     let share = |of: &ImageDifference| of.pixels.differing as f64 / of.pixels.pixels.max(1) as f64;
-    images.sort_by(|x, y| y.incomparable.is_some().cmp(&x.incomparable.is_some()).then(share(y).total_cmp(&share(x))));
+    // Those without a kind cannot be compared at all.
+    images.sort_by(|x, y| x.kind.cmp(&y.kind).then(share(y).total_cmp(&share(x))));
     Ok(ImagesDifference { compared: jobs.len(), images })
 }
 
@@ -209,7 +210,8 @@ fn image_difference(
             }
             let greatest = found.greatest.filter(|_| kind != Kind::Labels);
             out.kind = Some(kind);
-            out.pixels = PixelDifference { greatest, ..found };
+            let visible = if kind == Kind::Colour { found.visible } else { 0 };
+            out.pixels = PixelDifference { greatest, visible, ..found };
         }
     }
     Ok(Some(out))

@@ -8,7 +8,7 @@ use crate::pipeline::PipelineError;
 #[derive(Debug, thiserror::Error)]
 pub enum ComparisonError {
     #[error(transparent)]
-    Pipeline(#[from] PipelineError),
+    Pipeline(Box<PipelineError>),
     #[error(transparent)]
     Output(#[from] OutputError),
     #[error("cannot read {}: {source}", path.display())]
@@ -28,6 +28,12 @@ pub enum ComparisonError {
     Inputs(Vec<String>),
     #[error("the dataset cannot be made again: {0}")]
     Unverifiable(String),
+}
+
+impl From<PipelineError> for ComparisonError {
+    fn from(error: PipelineError) -> Self {
+        ComparisonError::Pipeline(Box::new(error))
+    }
 }
 
 impl ComparisonError {

@@ -183,13 +183,17 @@ fn legend(out: &mut Canvas, left: u32, top: u32, width: u32, kind: Kind, scale: 
         }
     }
     let ticks: Vec<(f32, String)> = match kind {
-        Kind::Depth => [0.0625, 0.25, 1.0].map(|share| (share, format!("{:.2}m", share * scale.difference))).to_vec(),
+        Kind::Depth => [0.0625, 0.25, 1.0].map(|share| (share, metres(share * scale.difference))).to_vec(),
         Kind::Colour | Kind::Labels => [1.0, 16.0, 64.0, 255.0].map(|n: f32| (n / 255.0, n.to_string())).to_vec(),
     };
     for (share, text) in ticks {
         let (at, wide) = ((share.sqrt() * width as f32) as u32, text.len() as u32 * SCALE * glyphs::ADVANCE);
         out.text(left + at.saturating_sub(wide / 2).min(width.saturating_sub(wide)), top + 16, &text);
     }
+}
+
+fn metres(m: f32) -> String {
+    if m >= 0.01 { format!("{m:.2}M") } else { format!("{m:.0e}M") }
 }
 
 /// Metres between which depths are shown, and the greatest difference that is not infinite.

@@ -48,14 +48,14 @@ fn decode_tiff(bytes: &[u8]) -> Result<Decoded, String> {
 }
 
 /// What kind of number an image holds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Kind {
-    /// Light, rounded.
-    Colour,
     /// Classes, masks, levels, ids: decisions, never blended.
     Labels,
     Depth,
+    /// Light, rounded.
+    Colour,
 }
 
 /// The kind of an image by what the manifest says, or, in old manifests, by how it is stored.
@@ -68,11 +68,16 @@ pub fn kind(output: Option<&str>, pixels: &Pixels) -> Kind {
     }
 }
 
+/// Differences of colour that nobody sees, parts of 255: rounding, and noise of the last bits of coordinates.
+pub const FAINT: f64 = 2.0;
+
 /// What differs between two images of the same size and kind.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct PixelDifference {
     pub pixels: u64,
     pub differing: u64,
+    /// Colour: pixels that differ by more than [`FAINT`], which people can see.
+    pub visible: u64,
     /// Colour: of any channel, in parts of 255; depth: metres; labels: none.
     pub greatest: Option<f64>,
     /// Depth: of the distance.
@@ -94,8 +99,9 @@ pub fn compare_pixels(a: &Decoded, b: &Decoded) -> Result<PixelDifference, Strin
         (Pixels::Gray16(a), Pixels::Gray16(b)) => Ok(colours(a, b, 1, 257.0, out)),
         (Pixels::Gray8(a), Pixels::Gray8(b)) => {
             let out = labels(a.iter().zip(b).map(|(a, b)| (u32::from(*a), u32::from(*b))), out);
-            let greatest = a.iter().zip(b).map(|(a, b)| a.abs_diff(*b)).max().map(f64::from);
-            Ok(PixelDifference { greatest, ..out })
+            let apart = || a.iter().zip(b).map(|(a, b)| f64::from(a.abs_diff(*b)));
+            let visible = apart().filter(|apart| *apart > FAINT).count() as u64;
+            Ok(PixelDifference { greatest: apart().reduce(f64::max), visible, ..out })
         }
         (Pixels::Id32(a), Pixels::Id32(b)) => Ok(labels(a.iter().copied().zip(b.iter().copied()), out)),
         (Pixels::Float32(a), Pixels::Float32(b)) => Ok(depths(a, b, out)),
@@ -115,7 +121,9 @@ fn colours<T: Copy + PartialEq + Into<f64>>(
         if a != b {
             out.differing += 1;
             let channel = a.iter().zip(b).map(|(a, b)| ((*a).into() - (*b).into()).abs());
-            greatest = channel.fold(greatest, f64::max);
+            let own = channel.fold(0.0, f64::max);
+            out.visible += u64::from(own > FAINT * scale);
+            greatest = greatest.max(own);
         }
     }
     PixelDifference { greatest: Some(greatest / scale), ..out }
@@ -158,7 +166,9 @@ mod tests {
     fn colours_are_measured_in_parts_of_255() {
         let (a, b) = (image(2, Pixels::Rgb8(vec![0, 0, 0, 9, 9, 9])), image(2, Pixels::Rgb8(vec![0, 0, 0, 9, 7, 10])));
         let found = compare_pixels(&a, &b).expect("the same size");
-        assert_eq!((found.pixels, found.differing, found.greatest), (2, 1, Some(2.0)));
+        assert_eq!((found.pixels, found.differing, found.visible, found.greatest), (2, 1, 0, Some(2.0)));
+        let visible = image(2, Pixels::Rgb8(vec![3, 0, 0, 9, 7, 10]));
+        assert_eq!(compare_pixels(&a, &visible).expect("the same size").visible, 1);
         let (a, b) = (image(1, Pixels::Gray16(vec![0])), image(1, Pixels::Gray16(vec![514])));
         assert_eq!(compare_pixels(&a, &b).expect("the same size").greatest, Some(2.0));
         assert_eq!(compare_pixels(&a, &a).expect("the same size").differing, 0);

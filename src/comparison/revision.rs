@@ -42,8 +42,11 @@ fn archive(top: &Path, tree: &str, below: Option<&Path>, target: &Path) -> Resul
     command.arg("-C").arg(top).args(["archive", "--format=tar", tree, "--"]);
     command.args(below).stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
     let mut child = command.spawn().map_err(|error| failed(error.to_string()))?;
-    let stdout = child.stdout.take().expect("the output is a pipe");
-    let unpacked = tar::Archive::new(stdout).unpack(target);
+    let mut stdout = child.stdout.take().expect("the output is a pipe");
+    let unpacked = tar::Archive::new(&mut stdout).unpack(target);
+    // What fills the archive's last block is to be taken too, or git is told that nobody listens.
+    let unpacked = unpacked.and_then(|()| std::io::copy(&mut stdout, &mut std::io::sink()).map(|_| ()));
+    drop(stdout);
     let output = child.wait_with_output().map_err(|error| failed(error.to_string()))?;
     match (output.status.success(), unpacked) {
         (true, Ok(())) => Ok(()),

@@ -132,9 +132,9 @@ impl Stored {
         let inputs = stored.inputs.iter().filter_map(|input| input.path.as_ref());
         let images = stored.views.iter().flat_map(|view| view.images.values()).map(|file| &file.path);
         // Scenes lie beside the folders of several datasets.
-        let files = stored.files.iter().map(|file| file.path.strip_prefix("../").unwrap_or(&file.path));
-        let mut all = inputs.chain(images).map(String::as_str).chain(files);
-        match all.find(|named| !stays_below(named)) {
+        let files = stored.files.iter().map(|file| (&file.path, file.path.strip_prefix("../").unwrap_or(&file.path)));
+        let mut all = inputs.chain(images).map(|path| (path, path.as_str())).chain(files);
+        match all.find(|(_, named)| !stays_below(named)).map(|(path, _)| path) {
             Some(named) => Err(wrong(format!("`{named}` leads out of its folder"))),
             None => Ok(stored),
         }

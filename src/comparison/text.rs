@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use super::difference::{Difference, ImageDifference, SceneDifference};
 use super::meshes::{FeatureMeshes, Surface};
-use super::pixels::Kind;
+use super::pixels::{FAINT, Kind};
 use super::rules::{Fate, FileDifference};
 use super::views::{DrawDifference, ViewsDifference};
 
@@ -313,7 +313,7 @@ fn images(out: &mut String, of: &Difference) {
 }
 
 /// The name of an image.
-pub fn image_name(image: &ImageDifference) -> String {
+fn image_name(image: &ImageDifference) -> String {
     format!("{}/{}", image.view, image.image)
 }
 
@@ -334,7 +334,10 @@ pub fn pixels_text(image: &ImageDifference) -> String {
             format!("{share}: {}", told.join(", "))
         }
         (Some(Kind::Depth), Some(greatest)) => format!("{share}, by up to {}", metres(greatest)),
-        (_, greatest) => format!("{share}, by up to {} of 255", number(&greatest.into())),
+        (_, greatest) => {
+            let visible = percent(of.visible as f64 / of.pixels.max(1) as f64);
+            format!("{share}, by up to {} of 255; {visible} by more than {FAINT}", number(&greatest.into()))
+        }
     }
 }
 

@@ -28,8 +28,6 @@ pub struct Painter {
     config: wgpu::SurfaceConfiguration,
     renderer: Renderer,
     lost: Arc<AtomicBool>,
-    /// Name and driver of the adapter that shows the window.
-    pub adapter: String,
 }
 
 impl Painter {
@@ -75,7 +73,7 @@ impl Painter {
         // The uniform branch of dithering is not worth its noise under text.
         let renderer =
             Renderer::new(&device, config.format, RendererOptions { dithering: false, ..RendererOptions::default() });
-        Ok(Painter { surface, device, queue, config, renderer, lost, adapter: info.name })
+        Ok(Painter { surface, device, queue, config, renderer, lost })
     }
 
     /// Texels per side of the largest picture.

@@ -17,6 +17,8 @@ const LEAST_NEAR_M: f64 = 0.1;
 const LEVEL_PX: f64 = 300.0;
 /// Cosine between line of sight and vertical below which dragging moves along the image plane, not the ground.
 const GRAZING: f64 = 0.2;
+/// Around a scene that is framed, of its size.
+const ROOM: f64 = 1.04;
 /// Half of the field of view, degrees, of a camera that the window made itself.
 const OWN_HALF_FOV_DEG: f64 = 20.0;
 
@@ -72,20 +74,28 @@ impl Viewpoint {
         self.given.as_ref()
     }
 
-    /// The same direction, at such a distance that all of the scene is seen.
+    /// The same direction, at such a distance that every corner of the scene's box is seen, with a little room.
     pub fn framing(&self, (low, high): Bounds) -> Viewpoint {
-        let radius = ((high - low).length() / 2.0).max(1.0);
+        let middle = (low + high) / 2.0;
+        let corner = |bits: u8| {
+            let pick = |bit: u8, low: f64, high: f64| if bits & bit == 0 { low } else { high };
+            DVec3::new(pick(1, low.x, high.x), pick(2, low.y, high.y), pick(4, low.z, high.z)) - middle
+        };
+        let offsets =
+            (0..8).map(corner).map(|at| (at.dot(self.right).abs(), at.dot(self.up).abs(), at.dot(self.forward)));
         let (lens, distance) = match self.lens {
             Projection::Perspective { tan_x, tan_y } => {
-                let tan = tan_x.min(tan_y);
-                (self.lens, radius * libm::sqrt(1.0 + 1.0 / (tan * tan)))
+                let needed = |(x, y, ahead): (f64, f64, f64)| (ROOM * x / tan_x).max(ROOM * y / tan_y) - ahead;
+                (self.lens, offsets.map(needed).fold(1.0, f64::max))
             }
             Projection::Orthographic { half_x, half_y } => {
-                let factor = radius / half_x.min(half_y);
-                (Projection::Orthographic { half_x: half_x * factor, half_y: half_y * factor }, 2.0 * radius)
+                let needed = |(x, y, _): (f64, f64, f64)| ROOM * (x / half_x).max(y / half_y);
+                let factor = offsets.map(needed).fold(1.0 / half_x.max(half_y), f64::max);
+                let lens = Projection::Orthographic { half_x: half_x * factor, half_y: half_y * factor };
+                (lens, (high - low).length().max(1.0))
             }
         };
-        Viewpoint { target: (low + high) / 2.0, distance, lens, given: None, ..*self }
+        Viewpoint { target: middle, distance, lens, given: None, ..*self }
     }
 
     /// Where the camera is.
@@ -239,22 +249,6 @@ pub fn ray(camera: &Camera, at: Pixel) -> (DVec3, DVec3) {
 pub fn point_at(camera: &Camera, at: Pixel, depth: f64) -> DVec3 {
     let (origin, direction) = ray(camera, at);
     origin + direction * depth
-}
-
-/// Where a point is in the picture; `None` behind the camera.
-pub fn project(camera: &Camera, point: DVec3) -> Option<Pixel> {
-    let offset = point - camera.position;
-    let ahead = offset.dot(camera.forward);
-    let (x, y) = match camera.projection {
-        Projection::Perspective { tan_x, tan_y } if ahead > 0.0 => {
-            (offset.dot(camera.right) / (ahead * tan_x), offset.dot(camera.up) / (ahead * tan_y))
-        }
-        Projection::Perspective { .. } => return None,
-        Projection::Orthographic { half_x, half_y } => {
-            (offset.dot(camera.right) / half_x, offset.dot(camera.up) / half_y)
-        }
-    };
-    Some(Pixel { x: (x + 1.0) / 2.0 * f64::from(camera.width), y: (1.0 - y) / 2.0 * f64::from(camera.height) })
 }
 
 #[cfg(test)]

@@ -25,7 +25,7 @@ pass now { show all }
 dataset d { views 1 * top }
 "#;
 
-const RULES: &str = "attr height = 9\n@StartRule\nLot --> extrude(height) Mass\nMass --> color(0.2, 0.2, 0.2)\n";
+const RULES: &str = "const tall = 9\n@StartRule\nLot --> extrude(tall) Mass\nMass --> color(0.2, 0.2, 0.2)\n";
 
 /// Long enough for a loaded machine.
 const SOON: Duration = Duration::from_secs(120);
@@ -107,6 +107,11 @@ fn shop() -> Workshop {
     shop
 }
 
+#[track_caller]
+fn list(value: &Value) -> &[Value] {
+    value.as_array().expect("a list")
+}
+
 fn picture(path: &Path) -> Vec<u8> {
     image::open(path).expect("the picture is whole").to_rgb8().into_raw()
 }
@@ -130,7 +135,7 @@ fn saves_mistakes_and_fixes_are_seen_at_once() {
     assert_eq!(first["picture"]["width"], 96);
     assert!(first["redone"]["lots_derived"].as_u64().expect("a number") >= 12);
     for phase in ["compile", "place", "derive", "ground", "assemble"] {
-        let phases = first["phases"].as_array().expect("a list");
+        let phases = list(&first["phases"]);
         assert!(phases.iter().any(|p| p["name"] == phase && p["ms"].is_number()), "{phase}: {first}");
     }
     let before = picture(&png);
@@ -145,7 +150,7 @@ fn saves_mistakes_and_fixes_are_seen_at_once() {
     watch.is_quiet();
 
     // A mistake: the picture stands.
-    shop.write("lot.cga", RULES.replace("color", "colour_it"));
+    shop.write("lot.cga", RULES.replace("color(0.2", "color((0.2"));
     let broken = watch.change();
     assert_eq!((&broken["stands"], &broken["picture"]), (&Value::from(true), &Value::Null), "{broken}");
     assert_eq!(
@@ -156,7 +161,7 @@ fn saves_mistakes_and_fixes_are_seen_at_once() {
     assert_eq!(picture(&png), after);
     shop.write("lot.cga", RULES);
     let fixed = watch.change();
-    assert_eq!((&fixed["stands"], fixed["diagnostics"].as_array().expect("a list").len()), (&Value::from(false), 0));
+    assert_eq!((&fixed["stands"], list(&fixed["diagnostics"]).len()), (&Value::from(false), 0));
     assert_eq!(fixed["geometry_sha256"], first["geometry_sha256"]);
     assert_eq!(picture(&png), before);
 
@@ -164,7 +169,7 @@ fn saves_mistakes_and_fixes_are_seen_at_once() {
     std::fs::remove_file(shop.path("lot.cga")).expect("it is there");
     let gone = watch.change();
     assert_eq!(gone["stands"], true, "{gone}");
-    shop.write("lot.cga", RULES.replace("height = 9", "height = 14"));
+    shop.write("lot.cga", RULES.replace("tall = 9", "tall = 14"));
     let back = watch.until(|line| line["stands"] == false);
     assert_ne!(back["geometry_sha256"], first["geometry_sha256"]);
     shop.write("new.cga", RULES);
@@ -179,7 +184,7 @@ fn saves_mistakes_and_fixes_are_seen_at_once() {
         (&Value::from(0), &Value::from(false)),
         "{sun}"
     );
-    assert!(sun["picture"]["phases"].as_array().expect("a list").iter().all(|p| p["name"] != "upload"), "{sun}");
+    assert!(list(&sun["picture"]["phases"]).iter().all(|p| p["name"] != "upload"), "{sun}");
     assert_ne!(picture(&png), before);
 }
 
@@ -191,13 +196,12 @@ fn rules_that_never_end_do_not_hold_the_loop() {
     shop.write(
         "lot.cga",
         RULES
-            .replace("extrude(height) Mass", "extrude(height) Again")
+            .replace("extrude(tall) Mass", "extrude(tall) Again")
             .replace("Mass -->", "Again --> Again Again\nMass -->"),
     );
     let endless = watch.change();
     assert_eq!(endless["stands"], true, "{endless}");
-    let codes: Vec<&str> =
-        endless["diagnostics"].as_array().expect("a list").iter().filter_map(|d| d["code"].as_str()).collect();
+    let codes: Vec<&str> = list(&endless["diagnostics"]).iter().filter_map(|d| d["code"].as_str()).collect();
     assert!(codes.iter().any(|code| code.starts_with("cga::limit")), "{codes:?}");
     shop.write("lot.cga", RULES);
     let fixed = watch.until(|line| line["stands"] == false);
@@ -210,10 +214,10 @@ fn a_thousand_saves_end_in_the_last_one() {
     let watch = Watch::start(&shop, &[]);
     watch.next();
     for number in 0..1_000 {
-        shop.write("lot.cga", RULES.replace("height = 9", &format!("height = {}", 5 + number % 23)));
+        shop.write("lot.cga", RULES.replace("tall = 9", &format!("tall = {}", 5 + number % 23)));
         std::thread::sleep(Duration::from_millis(4));
     }
-    shop.write("lot.cga", RULES.replace("height = 9", "height = 31"));
+    shop.write("lot.cga", RULES.replace("tall = 9", "tall = 31"));
     let last = cold(&shop);
     let line = watch.until(|line| line["geometry_sha256"] == last);
     assert!(line["number"].as_u64().expect("a number") < 1_000, "bursts are taken together");

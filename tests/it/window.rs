@@ -119,16 +119,25 @@ fn shop() -> Workshop {
     shop
 }
 
+/// Object numbers, pixel by pixel.
+type Numbers = ImageBuffer<Luma<u32>, Vec<u32>>;
+
 /// The images of the recipe's view as `mansard render` makes them: after, object numbers.
-fn dataset(shop: &Workshop) -> (RgbImage, ImageBuffer<Luma<u16>, Vec<u16>>) {
+fn dataset(shop: &Workshop) -> (RgbImage, Numbers) {
     shop.run(&["render", "r.render", "-o", "out"]).expect(0);
     let manifest: Value =
         serde_json::from_slice(&std::fs::read(shop.path("out/manifest.json")).expect("written")).expect("JSON");
-    let open = |name: &str| {
+    let path = |name: &str| {
         let path = manifest["views"][0]["images"][name]["path"].as_str().expect("the view has the image");
-        image::open(shop.path(&format!("out/{path}"))).expect("an image")
+        shop.path(&format!("out/{path}"))
     };
-    (open("after").to_rgb8(), open("ids").to_luma16())
+    let after = image::open(path("after")).expect("an image").to_rgb8();
+    let file = std::fs::File::open(path("ids")).expect("written");
+    let mut decoder = tiff::decoder::Decoder::new(file).expect("a TIFF file");
+    let tiff::decoder::DecodingResult::U32(numbers) = decoder.read_image().expect("a whole image") else {
+        panic!("object numbers have 32 bits");
+    };
+    (after.clone(), Numbers::from_vec(after.width(), after.height(), numbers).expect("a number per pixel"))
 }
 
 /// Where the picture is on the screen: left, top, width, height.
@@ -164,7 +173,7 @@ fn until(what: &str, holds: impl Fn() -> bool) {
 }
 
 /// A pixel in the middle of an object: it and all around it have one number, which more than one pixel has.
-fn inside(ids: &ImageBuffer<Luma<u16>, Vec<u16>>, wanted: impl Fn(u16) -> bool) -> (u32, u32, u16) {
+fn inside(ids: &Numbers, wanted: impl Fn(u32) -> bool) -> (u32, u32, u32) {
     let around = |x: u32, y: u32| (y - 2..=y + 2).flat_map(move |y| (x - 2..=x + 2).map(move |x| (x, y)));
     let all = (2..ids.height() - 2).flat_map(|y| (2..ids.width() - 2).map(move |x| (x, y)));
     let mut whole = all.filter(|&(x, y)| {
@@ -196,22 +205,22 @@ fn the_window_shows_edits_and_answers_clicks() {
     // A screenshot of an untouched view is the dataset's image.
     let (x, y) = screen_point(&first, 0.5, 0.5);
     display.move_to(x, y);
+    display.focus();
     display.key('p');
     let saved = watch.wait("the screenshot", |line| line["event"] == "screenshot");
     let saved = image::open(shop.path(saved["path"].as_str().expect("a path"))).expect("a whole PNG").to_rgb8();
     assert_eq!(saved, after, "the screenshot is not what the dataset shows");
 
     // A click on a building tells what the image of object numbers says.
-    let report = shop.run(&["build", "r.render", "-o", "town.glb"]).expect(0);
-    drop(report);
+    shop.run(&["build", "r.render", "-o", "town.glb"]).expect(0);
     let buildings = building_instances(&shop);
-    let (px, py, id) = inside(&ids, |id| buildings.contains(&u32::from(id)));
+    let (px, py, id) = inside(&ids, |id| buildings.contains(&id));
     let share = |pixel: u32, pixels: u32| (f64::from(pixel) + 0.5) / f64::from(pixels);
     let (x, y) = screen_point(&first, share(px, ids.width()), share(py, ids.height()));
     display.click(x, y);
     let picked = watch.wait("what was clicked", |line| line["event"] == "picked");
     let lot = &picked["lot"];
-    assert_eq!((&picked["instance"], &lot["instance"]), (&u64::from(id).into(), &u64::from(id).into()), "{picked}");
+    assert_eq!((&picked["instance"], &lot["instance"]), (&id.into(), &id.into()), "{picked}");
     assert_eq!(lot["class"], "building");
     let leaf = &lot["leaf"];
     if lot["change"].is_null() {
@@ -229,9 +238,10 @@ fn the_window_shows_edits_and_answers_clicks() {
     assert!(share_of(&display, &second, 0) < 0.001, "nothing is red any more");
 
     // A mistake leaves the picture and says so; a fix clears it.
-    shop.write("houses.cga", RULES.replace("extrude", "extrud"));
-    let update = watch.wait("a failed update", |line| line["stands"] == true);
-    assert_eq!(update["diagnostics"][0]["code"], "cga::unknown-operation", "{update}");
+    shop.write("houses.cga", RULES.replace("extrude(height)", "extrude(height"));
+    let update = watch.wait("a failed update", |line| line["stands"] == true && line["cancelled"] == false);
+    let message = &update["diagnostics"][0];
+    assert_eq!((&message["severity"], &message["line"]), (&"error".into(), &8.into()), "{update}");
     assert!(share_of(&display, &second, 2) > 0.01, "the last good picture stands");
     shop.write("houses.cga", RULES);
     let update = watch.wait("a good update", |line| line["stands"] == false);
@@ -257,6 +267,7 @@ fn states_views_and_hands() {
     let first = watch.frame(1);
     let (x, y) = screen_point(&first, 0.5, 0.5);
     display.move_to(x, y);
+    display.focus();
     for (key, shown) in
         [('1', vec!["before"]), ('3', vec!["mask"]), ('s', vec!["before", "after"]), ('2', vec!["after"])]
     {

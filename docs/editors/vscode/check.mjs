@@ -1,6 +1,8 @@
-// Reads every rule file and recipe of the repository with the grammars, as VS Code does (vscode-textmate, oniguruma), and
-// compares the scopes with those that tests/it/highlighting.rs found with its own reader. In: the repository, and
-// HIGHLIGHTING.txt if it was written (MANSARD_HIGHLIGHTING=FILE). Out: a line per file; exit code 1 if something is wrong.
+// Reads every rule file and recipe of the repository with the grammars, as VS Code does (vscode-textmate, oniguruma).
+// In: the repository, and what tests/it/highlighting.rs read with its own reader, where MANSARD_HIGHLIGHTING names the file:
+//   MANSARD_HIGHLIGHTING=/tmp/read.json cargo test --release --test it highlighting
+//   MANSARD_HIGHLIGHTING=/tmp/read.json npm run check
+// Out: a line per file; exit code 1 if a token has no scope, or another one.
 import { readFileSync, readdirSync, existsSync } from "node:fs";
 import { dirname, join, relative } from "node:path";
 import { fileURLToPath } from "node:url";
@@ -42,11 +44,15 @@ async function read(path) {
   readFileSync(path, "utf8").split("\n").forEach((line, number) => {
     const result = grammar.tokenizeLine(line, stack);
     stack = result.ruleStack;
-    for (const token of result.tokens) {
-      const text = line.slice(token.startIndex, token.endIndex);
-      const scope = token.scopes.at(-1);
-      if (text.trim() && !scope.startsWith("source.")) lines.push(`${number + 1}:${token.startIndex + 1} ${scope} ${text.trim()}`);
-      else if (text.trim()) lines.push(`${number + 1}:${token.startIndex + 1} NOTHING ${text.trim()}`);
+    const pieces = [];
+    for (const { startIndex: from, endIndex: to, scopes } of result.tokens) {
+      const last = pieces.at(-1);
+      if (last?.scope === scopes.at(-1)) last.to = to;
+      else pieces.push({ from, to, scope: scopes.at(-1) });
+    }
+    for (const { from, to, scope } of pieces) {
+      const text = line.slice(from, to).trim();
+      if (text) lines.push(`${number + 1}:${from + 1} ${scope.startsWith("source.") ? "NOTHING" : scope} ${text}`);
     }
   });
   return lines;

@@ -76,7 +76,7 @@ fn said(error: ComparisonError) -> Failure {
 /// An error of comparing, with the mistakes of recipes printed.
 pub fn failure(error: ComparisonError, sources: &SourceMap) -> Failure {
     match error {
-        ComparisonError::Pipeline(error) => trouble(report::failure(error, sources)),
+        ComparisonError::Pipeline(error) => trouble(report::failure(*error, sources)),
         other => said(other),
     }
 }

@@ -48,14 +48,13 @@ Roof --> roofHip(30) lib.Tiles
 
 pub const LIB: &str = r##"attr tile = 0.4
 const dark = "#553322"
-Tiles --> color(dark) Tile
+Tiles --> color(dark) Tile.
 "##;
 
 pub const BLOCK: &str = "attr height = 9\n@StartRule\nLot --> extrude(height) comp(f){ side : Side | top : Flat }\n\
     Side --> color(0.6, 0.6, 0.6)\nFlat --> color(0.3, 0.3, 0.3)\n";
 pub const STREET: &str = "@StartRule\nLot --> color(0.2, 0.2, 0.2)\n";
-pub const RUIN: &str =
-    "attr left = 1\n@StartRule\nLot --> [ color(0.1, 0.1, 0.1) ] extrude(left) Stump\nStump --> color(0.2, 0.1, 0.1)\n";
+pub const RUIN: &str = "attr left = 1\n@StartRule\nLot --> [ color(0.1, 0.1, 0.1) Ash. ] extrude(left) Stump\nStump --> color(0.2, 0.1, 0.1)\n";
 
 /// A folder that is removed at the end of the test.
 pub struct Workshop {

@@ -3,7 +3,7 @@
 use egui::{RichText, Ui};
 
 use super::Action;
-use super::left::mark;
+use super::left::{mark, name_cell};
 use crate::interpreter::tree::Scalar;
 use crate::window::attributes::{Field, Node, Widget, color_of, color_text, snapped};
 use crate::window::desk::Desk;
@@ -62,15 +62,8 @@ fn line(ui: &mut Ui, desk: &mut Desk, rule: &RulePanel, field: &Field, actions: 
     let own = desk.overridden(&rule.file, &field.name).cloned();
     ui.horizontal(|ui| {
         mark(ui, own.is_some());
-        let colour = if own.is_some() { theme::STRONG } else { theme::TEXT };
         let indent = ui.cursor().left() - ui.max_rect().left();
-        let name = egui::Label::new(RichText::new(&field.label).color(colour)).truncate().halign(egui::Align::LEFT);
-        let layout = egui::Layout::left_to_right(egui::Align::Center);
-        let label = ui.allocate_ui_with_layout(egui::vec2(NAMES - indent, 20.0), layout, |ui| {
-            ui.set_width(NAMES - indent);
-            ui.add(name)
-        });
-        label.inner.on_hover_text(hint(rule, field));
+        name_cell(ui, &field.label, NAMES - indent).on_hover_text(hint(rule, field));
         let reset = if own.is_some() { 28.0 } else { 0.0 };
         let start = own.clone().unwrap_or_else(|| field.start());
         let width = (ui.available_width() - reset).max(60.0);
@@ -113,11 +106,12 @@ fn widget(ui: &mut Ui, field: &Field, start: &Scalar, own: bool, width: f32) -> 
         (Widget::Slider { min, max, step }, Scalar::Float(start)) => {
             let mut value = *start;
             ui.spacing_mut().slider_width = (width - 62.0).max(40.0);
-            let mut slider = egui::Slider::new(&mut value, *min..=*max).max_decimals(3);
-            if *step > 0.0 {
-                slider = slider.step_by(*step);
-            }
-            let changed = ui.add(slider).changed();
+            // What the rules say is shown as it is, even off the steps or out of the range.
+            let slider = egui::Slider::new(&mut value, *min..=*max).clamping(egui::SliderClamping::Edits);
+            let known = own || field.default.is_some();
+            let slider = slider.max_decimals(3).show_value(known).trailing_fill(known);
+            let changed = ui.add(if *step > 0.0 { slider.step_by(*step) } else { slider }).changed();
+            drawn_note(ui, field, own);
             changed.then(|| Scalar::Float(snapped(value, &field.widget)))
         }
         (Widget::Number { .. }, Scalar::Float(start)) => {
@@ -146,7 +140,8 @@ fn widget(ui: &mut Ui, field: &Field, start: &Scalar, own: bool, width: f32) -> 
         }
         (Widget::Text, Scalar::String(start)) => {
             let mut value = start.to_string();
-            let edit = egui::TextEdit::singleline(&mut value).desired_width(width - 8.0);
+            let hint = if own || field.default.is_some() { "" } else { "by rule" };
+            let edit = egui::TextEdit::singleline(&mut value).hint_text(hint).desired_width(width - 8.0);
             ui.add(edit).changed().then(|| Scalar::String(value.into()))
         }
         // A default of another type than its annotation: nothing to edit.

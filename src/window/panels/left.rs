@@ -8,7 +8,7 @@ use crate::window::desk::{Desk, Show};
 use crate::window::theme;
 
 pub fn show(ui: &mut Ui, desk: &mut Desk, actions: &mut Vec<Action>) {
-    egui::Panel::left("choices").default_size(248.0).size_range(210.0..=360.0).frame(theme::side()).show(ui, |ui| {
+    egui::Panel::left("choices").default_size(258.0).size_range(230.0..=360.0).frame(theme::side()).show(ui, |ui| {
         fixed(ui, |ui| {
             heading(ui, desk);
             state(ui, desk, actions);
@@ -45,17 +45,25 @@ pub fn thousands(number: usize) -> String {
 
 fn state(ui: &mut Ui, desk: &mut Desk, actions: &mut Vec<Action>) {
     theme::title(ui, "State");
-    ui.columns(4, |columns| {
-        for ((ui, show), key) in columns.iter_mut().zip(Show::ALL).zip(["1", "2", "3", "S"]) {
-            let chosen = desk.show == show;
-            let fill = if chosen { theme::ACCENT_DEEP } else { theme::RAISED };
-            let text = RichText::new(show.name()).color(if chosen { theme::STRONG } else { theme::TEXT });
-            let button = egui::Button::new(text).fill(fill).min_size(egui::vec2(ui.available_width(), 26.0));
-            if ui.add(button).on_hover_text(format!("key {key}")).clicked() && !chosen {
-                desk.show = show;
-                actions.push(Action::Look { moving: false });
+    ui.scope(|ui| {
+        ui.spacing_mut().item_spacing.x = 5.0;
+        ui.columns(4, |columns| {
+            for ((ui, show), key) in columns.iter_mut().zip(Show::ALL).zip(["1", "2", "3", "S"]) {
+                let chosen = desk.show == show;
+                let fill = if chosen { theme::ACCENT_DEEP } else { theme::RAISED };
+                ui.spacing_mut().button_padding.x = 2.0;
+                let text = RichText::new(show.name()).color(if chosen { theme::STRONG } else { theme::TEXT });
+                if ui
+                    .add_sized([ui.available_width(), 26.0], egui::Button::new(text).fill(fill))
+                    .on_hover_text(format!("key {key}"))
+                    .clicked()
+                    && !chosen
+                {
+                    desk.show = show;
+                    actions.push(Action::Look { moving: false });
+                }
             }
-        }
+        });
     });
 }
 
@@ -97,7 +105,10 @@ fn views(ui: &mut Ui, desk: &mut Desk, actions: &mut Vec<Action>) {
             desk.frame_scene();
             actions.push(Action::Look { moving: false });
         }
-        ui.toggle_value(&mut desk.flying, "Fly").on_hover_text("key G: then W A S D, Q down, E up, drag to look about");
+        let fly = ui.add(egui::Button::new("Fly").selected(desk.flying));
+        if fly.on_hover_text("key G: then W A S D, Q down, E up, drag to look about").clicked() {
+            desk.flying = !desk.flying;
+        }
     });
 }
 
@@ -106,11 +117,13 @@ fn sun(ui: &mut Ui, desk: &mut Desk, actions: &mut Vec<Action>) {
     theme::title(ui, "Sun");
     theme::card().show(ui, |ui| {
         let SunAngles { mut elevation, mut azimuth } = now;
-        ui.spacing_mut().slider_width = (ui.available_width() - 120.0).max(60.0);
+        ui.spacing_mut().slider_width = (ui.available_width() - 138.0).max(40.0);
         let slider = |ui: &mut Ui, name: &str, value: &mut f64, range: std::ops::RangeInclusive<f64>| {
             ui.horizontal(|ui| {
-                ui.add_sized([56.0, 20.0], egui::Label::new(name).halign(egui::Align::LEFT));
-                ui.add(egui::Slider::new(value, range).max_decimals(1).suffix("°")).changed()
+                name_cell(ui, name, 56.0);
+                // A value that the recipe drew is not touched before the user does.
+                let slider = egui::Slider::new(value, range).clamping(egui::SliderClamping::Edits);
+                ui.add(slider.max_decimals(1).suffix("°")).changed()
             })
             .inner
         };
@@ -122,13 +135,23 @@ fn sun(ui: &mut Ui, desk: &mut Desk, actions: &mut Vec<Action>) {
         }
         let own = desk.overrides.sun.is_some();
         ui.horizontal(|ui| {
-            mark(ui, own);
             if ui.add_enabled(own, egui::Button::new("As in the recipe").small()).clicked() {
                 desk.overrides.sun = None;
                 actions.push(Action::Choose);
             }
+            mark(ui, own);
         });
     });
+}
+
+/// A name in a column of this width.
+pub fn name_cell(ui: &mut Ui, name: &str, width: f32) -> egui::Response {
+    let layout = egui::Layout::left_to_right(egui::Align::Center);
+    let cell = ui.allocate_ui_with_layout(egui::vec2(width, 20.0), layout, |ui| {
+        ui.set_width(width);
+        ui.add(egui::Label::new(name).truncate())
+    });
+    cell.inner
 }
 
 /// A dot where a value is not the recipe's.
@@ -168,7 +191,6 @@ fn draws(ui: &mut Ui, desk: &mut Desk, actions: &mut Vec<Action>) {
     theme::card().show(ui, |ui| {
         let own = desk.overrides.seed.is_some();
         ui.horizontal(|ui| {
-            mark(ui, own);
             let seed = desk.overrides.seed.unwrap_or(shown.seed);
             ui.label(RichText::new(seed.to_string()).monospace().size(15.0).color(theme::STRONG));
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
@@ -178,10 +200,13 @@ fn draws(ui: &mut Ui, desk: &mut Desk, actions: &mut Vec<Action>) {
                 }
             });
         });
-        if ui.add_enabled(own, egui::Button::new("As in the recipe").small()).clicked() {
-            desk.overrides.seed = None;
-            actions.push(Action::Choose);
-        }
+        ui.horizontal(|ui| {
+            if ui.add_enabled(own, egui::Button::new("As in the recipe").small()).clicked() {
+                desk.overrides.seed = None;
+                actions.push(Action::Choose);
+            }
+            mark(ui, own);
+        });
     });
 }
 

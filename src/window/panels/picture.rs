@@ -24,6 +24,8 @@ const SAME_PLACE: f32 = 4.0;
 pub struct Canvas {
     textures: BTreeMap<Kind, (u64, TextureHandle)>,
     outline: Option<((u64, Kind, u32), TextureHandle)>,
+    /// How much of a drag was carried out, points.
+    dragged: egui::Vec2,
     /// What the cursor holds while it pans.
     held: Option<DVec3>,
     /// Where a run of scrolls began, and what was there.
@@ -207,7 +209,10 @@ fn click(desk: &Desk, canvas: &mut Canvas, actions: &mut Vec<Action>) {
 }
 
 fn drag(ui: &Ui, response: &egui::Response, place: &Place, desk: &mut Desk, canvas: &mut Canvas) -> bool {
-    let by = response.drag_delta();
+    // Counted from where the button went down: nothing is lost in a slow pass.
+    let whole = response.total_drag_delta().unwrap_or_default();
+    let by = whole - canvas.dragged;
+    canvas.dragged = whole;
     let (shift, cursor) = ui.input(|input| (input.modifiers.shift, input.pointer.latest_pos()));
     let turning = response.dragged_by(egui::PointerButton::Primary) && !shift;
     let panning = (response.dragged() && !turning).then_some(cursor).flatten();

@@ -63,7 +63,7 @@ fn facts(ui: &mut Ui, picked: &Picked, lot: &LotInfo, actions: &mut Vec<Action>)
         row(ui, "Leaves", &thousands(lot.leaves));
         row(ui, "Triangles", &thousands(lot.triangles));
         row(ui, "Derived in", &format!("{:.2} ms", lot.derivation_ms));
-        if let Some(leaf) = &lot.leaf {
+        if let Some(leaf) = lot.leaf.as_ref().filter(|leaf| !leaf.material.is_empty()) {
             row(ui, "Material", &leaf.material);
         }
     });

@@ -27,6 +27,22 @@ fn camera() -> impl Strategy<Value = Camera> {
     (0.0..70.0, 0.0..360.0, 0.0..360.0, lens()).prop_map(|(o, a, h, lens)| recipe_camera(o, a, h, lens))
 }
 
+/// Where a point is in the picture; `None` behind the camera.
+fn project(camera: &Camera, point: DVec3) -> Option<Pixel> {
+    let offset = point - camera.position;
+    let ahead = offset.dot(camera.forward);
+    let (x, y) = match camera.projection {
+        Projection::Perspective { tan_x, tan_y } if ahead > 0.0 => {
+            (offset.dot(camera.right) / (ahead * tan_x), offset.dot(camera.up) / (ahead * tan_y))
+        }
+        Projection::Perspective { .. } => return None,
+        Projection::Orthographic { half_x, half_y } => {
+            (offset.dot(camera.right) / half_x, offset.dot(camera.up) / half_y)
+        }
+    };
+    Some(Pixel { x: (x + 1.0) / 2.0 * f64::from(camera.width), y: (1.0 - y) / 2.0 * f64::from(camera.height) })
+}
+
 fn assert_orthonormal(camera: &Camera) {
     let Camera { right, up, forward, .. } = *camera;
     for (a, b) in [(right, up), (up, forward), (forward, right)] {

@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use image::RgbImage;
 use x11rb::connection::Connection;
-use x11rb::protocol::xproto::{ConnectionExt as _, ImageFormat, Window};
+use x11rb::protocol::xproto::{ConnectionExt as _, ImageFormat, InputFocus, MapState, Window};
 use x11rb::protocol::xtest::ConnectionExt as _;
 use x11rb::rust_connection::RustConnection;
 
@@ -89,6 +89,19 @@ impl Display {
             self.move_to(along(from.0, to.0), along(from.1, to.1));
         }
         self.fake(BUTTON_RELEASE, 1, (0, 0));
+    }
+
+    /// Gives the keyboard to the program's window, as a window manager would.
+    pub fn focus(&self) {
+        let tree = self.connection.query_tree(self.root).expect("asked").reply().expect("the root has a tree");
+        let shown = |window: &&Window| {
+            let attributes = self.connection.get_window_attributes(**window).expect("asked").reply();
+            attributes.is_ok_and(|attributes| attributes.map_state == MapState::VIEWABLE)
+        };
+        let window = *tree.children.iter().find(shown).expect("the program has a window");
+        let focus = self.connection.set_input_focus(InputFocus::PARENT, window, x11rb::CURRENT_TIME);
+        focus.expect("asked").check().expect("the window takes the keyboard");
+        std::thread::sleep(Duration::from_millis(200));
     }
 
     /// Presses the key that types this character without Shift.

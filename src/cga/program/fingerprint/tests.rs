@@ -7,8 +7,8 @@ use crate::source::SourceMap;
 const RULES: &str = "
 attr height = 9
 attr floors = height / 3
-f(x) = x * 2
-Lot --> extrude(f(height)) comp(f){ side: Wall | top: Roof }
+twice(x) = x * 2
+Lot --> extrude(twice(height)) comp(f){ side: Wall | top: Roof }
 Wall --> split(y){ ~3: Floor }*
 Floor --> color(1, 0, 0)
 ";
@@ -43,11 +43,11 @@ fn only_what_is_edited_changes() {
     };
     assert_eq!(edit("color(1, 0, 0)", "color( 1, 0,0 ) // red"), Vec::<String>::new());
     assert_eq!(edit("color(1, 0, 0)", "color(1, 0, 0.1)"), ["Floor/0"]);
-    assert_eq!(edit("x * 2", "x * 3"), ["f/1"]);
+    assert_eq!(edit("x * 2", "x * 3"), ["twice/1"]);
     assert_eq!(edit("attr height = 9", "attr height = 10"), ["height"]);
     assert_eq!(edit("height / 3", "height / 4"), ["floors"]);
     assert_eq!(edit("~3: Floor", "3: Floor"), ["Wall/0"]);
-    assert_eq!(edit("f(x) = x * 2", "f(wide) = wide * 2"), Vec::<String>::new());
+    assert_eq!(edit("twice(x) = x * 2", "twice(wide) = wide * 2"), Vec::<String>::new());
     // A rule in front shifts all ids.
     assert_eq!(edit("Lot -->", "A --> NIL\nB --> A\nLot -->"), ["A/0", "B/0"]);
     assert_eq!(edit("attr height", "attr aa = 1\nattr height"), ["aa"]);
@@ -71,7 +71,7 @@ fn what_items_read_is_known() {
 fn only_what_restricts_values_is_declared() {
     let declared = |text: &str| prints(&format!("{text}attr a = 1\nLot --> extrude(a)\n")).attributes[0].declared;
     let plain = declared("");
-    assert_eq!(declared("@Range(min=0, max=9)\n"), plain);
+    assert_eq!(declared("@Range(min=0, max=9, restricted=false)\n"), plain);
     assert_eq!(declared("@Hidden\n"), plain);
     assert_ne!(declared("@Range(min=0, max=9, restricted=true)\n"), plain);
 }
