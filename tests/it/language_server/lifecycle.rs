@@ -45,7 +45,7 @@ fn leaving_without_shutdown_is_a_failure() {
 #[test]
 fn a_request_that_was_taken_back_is_answered_as_such() {
     let mut editor = Editor::new(&[]);
-    editor.open("a.cga", &format!("Lot --> {}\n", "extrude(3) ".repeat(20_000)));
+    editor.open("a.cga", &format!("Lot --> {}\n", "extrude(3) ".repeat(5_000)));
     let params = json!({ "textDocument": { "uri": editor.uri("a.cga") } });
     // All at once: while the first requests are at work, the last one waits behind them, with its cancellation.
     let request =
