@@ -65,7 +65,7 @@ def put(title, update):
 
 print("# Ten edits of Riverside\n")
 print("Recorded by `tests/bench/live/ten_edits.py`: 400 buildings, 1024 × 1024 pixels, lines of JSON shortened.")
-print(f"Machine: {os.cpu_count()} cores ({platform.machine()}), Mesa's llvmpipe as the adapter; milliseconds.\n\n```")
+print(f"Machine: {os.cpu_count()} cores ({platform.machine()}), Mesa's llvmpipe as the adapter; milliseconds. {os.environ.get('NOTE', '')}\n\n```")
 print("$ mansard watch riverside.render --headless --png now.png")
 put("start", told())
 edits = [
