@@ -45,6 +45,10 @@ impl Default for Limits {
     }
 }
 
+/// What a derivation says that met a bound it would not end without.
+pub const ENDLESS: &[&str] =
+    &["cga::limit-calls", "cga::limit-depth", "cga::limit-shapes", "cga::limit-text", "cga::limit-vertices"];
+
 /// Derivation ends here; the reason is in the diagnostics.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stop;

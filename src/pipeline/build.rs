@@ -42,7 +42,7 @@ pub struct BuiltScene {
     pub assignments: Vec<Assignment>,
     /// Only where mesh checks were asked for.
     pub validation: Option<Validation>,
-    /// Textures and geometry files that rules named.
+    /// Textures and geometry files that rules named; with a memory those that were read since any of them changed.
     pub files: Vec<InputFile>,
     /// Mistakes met while deriving.
     pub diagnostics: Diagnostics,
@@ -183,6 +183,9 @@ fn build(
 
     // Derive every feature in every state.
     let assets = memory.assets(recipe);
+    if let Some(built) = memory.settled(recipe, fineness, &prepared, &assets) {
+        return Ok(built);
+    }
     let limits = Limits { detail: fineness.detail_m, curve_bands: fineness.curve_bands, ..Limits::default() };
     let derived = memory.timed("derive", |memory| {
         derive_features(recipe, (&prepared, &site), &assets, (&limits, checks), memory, progress)

@@ -25,6 +25,7 @@ use crate::geodata::ledger::Outcome;
 use crate::geodata::terrain::Terrain;
 use crate::geometry::mesh_checks::Bodies;
 use crate::interpreter::context::Member;
+use crate::interpreter::limits::ENDLESS;
 use crate::interpreter::reports::Report;
 use crate::interpreter::tree::ShapeTree;
 use crate::interpreter::{FileAssets, Limits};
@@ -160,8 +161,7 @@ fn completed(
         let mut tree = derive(&noting);
         let used = std::mem::take(&mut tree.used);
         let seconds = start.elapsed().as_secs_f64();
-        let is_endless =
-            tree.diagnostics.iter().any(|d| d.severity == Severity::Error && d.code.starts_with("cga::limit"));
+        let is_endless = tree.diagnostics.iter().any(|d| d.severity == Severity::Error && ENDLESS.contains(&d.code));
         endless.fetch_add(usize::from(is_endless), Ordering::Relaxed);
         let derived = each(number, tree);
         progress.step(1);

@@ -122,6 +122,10 @@ impl Memory {
         if let (Some(began), Some(kept)) = (self.began, &self.assets) {
             self.files.learn(&kept.looked.paths(), began);
         }
+        // A map that was written while it was read is read again.
+        if !self.site.as_ref().is_some_and(|site| site.files().all(|path| self.files.is_untouched(path))) {
+            self.site = None;
+        }
     }
 
     pub(super) fn log_mut(&mut self) -> &mut Log {
@@ -177,6 +181,24 @@ impl Memory {
             && Arc::ptr_eq(&kept.prepared, prepared)
             && Arc::ptr_eq(&kept.assets, assets);
         is_same.then(|| kept.built.clone())
+    }
+
+    /// The last scene, if it is made from the very same start shapes, texts and files: there is nothing to look into.
+    pub(super) fn settled(
+        &mut self,
+        recipe: &Recipe,
+        fineness: Fineness,
+        prepared: &Arc<PreparedScene>,
+        assets: &Arc<FileAssets>,
+    ) -> Option<Arc<BuiltScene>> {
+        let name = &self.scene.as_ref()?.built.record.name;
+        let spec = recipe.spec.scenes.iter().find(|scene| scene.name == *name)?;
+        let built = self.unchanged(spec, fineness, prepared, assets)?;
+        if !self.states.are_of(&recipe.programs) {
+            return None;
+        }
+        self.log.kept = self.states.len();
+        Some(built)
     }
 
     pub(super) fn keep_scene(

@@ -2,7 +2,7 @@
 //! and the lots of the features.
 
 use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 
 use glam::DVec2;
@@ -57,6 +57,13 @@ pub struct Site {
 pub(super) struct KeptSite {
     from: SiteKey,
     site: Arc<Site>,
+}
+
+impl KeptSite {
+    /// Map and elevation.
+    pub fn files(&self) -> impl Iterator<Item = &Path> {
+        self.from.maps.iter().chain(&self.from.elevations).map(|(path, _)| path.as_path())
+    }
 }
 
 /// Everything of a recipe that a place depends on.

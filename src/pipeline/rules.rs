@@ -63,6 +63,11 @@ impl Programs {
         self.find(key).expect("keys come from the same recipe")
     }
 
+    /// Hash of the texts of each program and of their places in the source map, by key.
+    pub(super) fn identities(&self) -> impl Iterator<Item = (&Arc<str>, &[u8; 32])> {
+        self.programs.iter().map(|(key, compiled)| (key, &compiled.identity))
+    }
+
     /// What is known of each program, by key.
     pub(super) fn facts(&self) -> impl Iterator<Item = (Arc<str>, Arc<Facts>)> {
         self.programs.iter().map(|(key, Compiled { program, identity, facts })| {

@@ -81,17 +81,23 @@ impl FileTable {
         })
     }
 
-    /// Looks at paths that were read since `since` without having been looked at before: if one was written after that,
-    /// nobody knows which of its contents was read, and it counts as changed.
+    /// Whether nobody wrote to a path since it was last looked at.
+    pub fn is_untouched(&self, path: &Path) -> bool {
+        self.known.get(path).is_some_and(|known| known.stamp == stamp(path))
+    }
+
+    /// Looks at paths that were read since `since`. If one was written meanwhile, nobody knows which of its contents was
+    /// read, and it counts as changed, even if it holds again what it held before.
     pub fn learn<'a>(&mut self, paths: impl IntoIterator<Item = &'a PathBuf>, since: SystemTime) {
         for path in paths {
-            if self.known.contains_key(path) {
-                continue;
+            let is_known = self.known.contains_key(path);
+            let is_doubtful = is_known && !self.is_untouched(path);
+            if !is_known {
+                self.content(path);
             }
-            self.content(path);
             let known = self.known.get_mut(path).expect("it was looked at");
-            let later = known.stamp.and_then(|stamp| stamp.modified).is_some_and(|modified| modified >= since);
-            if later {
+            let written = known.stamp.and_then(|stamp| stamp.modified);
+            if is_doubtful || !is_known && written.is_some_and(|written| written >= since) {
                 // No file has this content.
                 known.content = Content::File { bytes: u64::MAX, sha256: [0; 32] };
                 known.unsure = true;
@@ -202,5 +208,12 @@ mod tests {
         files.learn(&paths, SystemTime::now() + Duration::from_secs(60));
         assert!(files.changed(&paths).is_empty());
         assert_eq!(files.changed(&[folder.path().join("never looked at")]), Vec::<PathBuf>::new());
+        // Written twice, and as before in the end: what was read in between is not known.
+        std::fs::write(&path, "two").expect("writable");
+        std::thread::sleep(2 * CLOCK_STEP);
+        std::fs::write(&path, "one").expect("writable");
+        files.learn(&paths, SystemTime::now() + Duration::from_secs(60));
+        assert_eq!(files.changed(&paths), paths);
+        assert!(files.changed(&paths).is_empty());
     }
 }

@@ -45,6 +45,10 @@ impl Facts {
         }
     }
 
+    pub fn identity(&self) -> &[u8; 32] {
+        &self.identity
+    }
+
     /// Attributes that these rules and functions may read, directly or through defaults.
     pub(super) fn reads(&self, used: &Used) -> Bits {
         let mut reads = Bits::default();

@@ -81,6 +81,13 @@ impl States {
         self.kept.iter()
     }
 
+    /// Whether all derivations are of these programs, texts and places.
+    pub fn are_of(&self, programs: &Programs) -> bool {
+        let mut others = programs.identities();
+        let mut own = self.facts.iter().map(|(key, facts)| (key, facts.identity()));
+        !self.has_new_answers() && own.by_ref().all(|own| others.next() == Some(own)) && others.next().is_none()
+    }
+
     /// Asks all questions about files again.
     pub fn ask_again(&mut self, assets: &FileAssets, files: &mut FileTable) {
         let read = std::mem::take(&mut self.read);

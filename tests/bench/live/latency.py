@@ -24,7 +24,7 @@ for rules in (root / "rules").glob("*.cga"):
     shutil.copy(rules, shop)
 recipe = (root / "examples/syncw/syncw.render").read_text().replace('"mansard:', '"')
 # Fifty lots of their own.
-recipe = recipe.replace("camera satellite {", 'change few { of building  count 50  rules "few.cga" }\n\ncamera satellite {')
+recipe = recipe.replace("change burnt {", 'change few { of building  count 50  rules "few.cga" }\n\nchange burnt {')
 recipe = recipe.replace("pass after  { show all  with burnt ", "pass after  { show all  with few, burnt ")
 (shop / "place.render").write_text(recipe)
 shutil.copy(root / "rules/residential.cga", shop / "few.cga")
