@@ -253,7 +253,10 @@ mod tests {
         RuleText { name: name.to_owned(), text: text.into() }
     }
 
-    fn differences(a: &str, b: &str) -> Vec<(&'static str, String, Fate, Option<usize>, Option<usize>)> {
+    /// Kind, name, fate, line in A, line in B.
+    type Told = (&'static str, String, Fate, Option<usize>, Option<usize>);
+
+    fn differences(a: &str, b: &str) -> Vec<Told> {
         let files = compare_rules(&[text("x.cga", a)], &[text("x.cga", b)]);
         let all = files.into_iter().flat_map(|f| f.declarations);
         all.map(|d| (d.what, d.name, d.fate, d.line_a, d.line_b)).collect()
