@@ -154,7 +154,7 @@ impl Memory {
         }
         let looked = Looked::default();
         let assets = Arc::new(FileAssets::new(recipe.assets_access().noting(looked.clone())));
-        self.states.ask_again(&*assets, &mut self.files);
+        self.states.ask_again(&assets, &mut self.files);
         self.assets = Some(KeptAssets { assets: assets.clone(), looked });
         assets
     }
