@@ -301,7 +301,11 @@ fn images(out: &mut String, of: &Difference) {
         section(out, "renderer", &format!("{a} → {b}"));
     }
     let Some(found) = &of.images else {
-        section(out, "pixels", "not compared: recipes are drawn with --pixels or -o");
+        let why = match of.views.is_empty() {
+            true => "none: there is no dataset",
+            false => "not compared: recipes are drawn with --pixels or -o",
+        };
+        section(out, "pixels", why);
         return;
     };
     if found.images.is_empty() {

@@ -43,7 +43,10 @@ fn files(shop: &Workshop, folder: &str) -> Vec<(String, Vec<u8>)> {
         let bytes = std::fs::read(shop.path(&name)).expect("written");
         let bytes = if name.ends_with("manifest.json") {
             let mut manifest: Value = serde_json::from_slice(&bytes).expect("JSON");
-            manifest.as_object_mut().expect("an object").remove("inputs").expect("inputs are recorded");
+            let fields = manifest.as_object_mut().expect("an object");
+            // Its name, and its content.
+            fields.remove("recipe").expect("the recipe is named");
+            fields.remove("inputs").expect("inputs are recorded");
             manifest.to_string().into_bytes()
         } else {
             bytes

@@ -204,28 +204,29 @@ fn of_recipe(workspace: &mut Workspace, path: &Path, text: &str) -> Found {
     out
 }
 
-/// Tokens relative to each other, each on one line.
+/// Tokens relative to each other, each on one line. Counts on from the token before, so long lines cost no more.
 fn encoded(lines: &Lines, encoding: Encoding, found: &Found) -> Vec<SemanticToken> {
     let mut out = Vec::new();
-    let (mut line, mut character) = (0, 0);
+    let (mut line, mut before) = (0, 0);
     for ((start, end), (kind, modifiers)) in found {
         let mut at = *start;
         for piece in lines.text[*start as usize..*end as usize].split_inclusive('\n') {
-            let position = lines.position(at);
             let length = encoding.length(piece.trim_end_matches(['\r', '\n']));
+            let here = at;
             at += piece.len() as u32;
-            if length == 0 || (position.line, position.character) < (line, character) {
+            if length == 0 || here < before {
                 continue;
             }
-            let same_line = position.line == line;
+            let own_line = lines.line(here);
+            let from = if own_line == line { before } else { lines.start(own_line) };
             out.push(SemanticToken {
-                delta_line: position.line - line,
-                delta_start: if same_line { position.character - character } else { position.character },
+                delta_line: own_line - line,
+                delta_start: encoding.length(&lines.text[from as usize..here as usize]),
                 length,
                 token_type: *kind as u32,
                 token_modifiers_bitset: *modifiers,
             });
-            (line, character) = (position.line, position.character);
+            (line, before) = (own_line, here);
         }
     }
     out

@@ -72,7 +72,7 @@ fn line(ui: &mut Ui, desk: &mut Desk, rule: &RulePanel, field: &Field, actions: 
             desk.set_attribute(&rule.file, &field.name, Some(value));
             actions.push(Action::Choose);
         }
-        if own.is_some() && ui.small_button("⟲").on_hover_text("as the recipe and the rules have it").clicked() {
+        if own.is_some() && ui.small_button("×").on_hover_text("as the recipe and the rules have it").clicked() {
             desk.set_attribute(&rule.file, &field.name, None);
             actions.push(Action::Choose);
         }

@@ -180,7 +180,7 @@ fn layers(ui: &mut Ui, desk: &mut Desk, actions: &mut Vec<Action>) {
     });
 }
 
-fn capital(word: &str) -> String {
+pub fn capital(word: &str) -> String {
     let mut letters = word.chars();
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }

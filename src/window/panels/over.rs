@@ -4,8 +4,9 @@
 use egui::{Align2, Color32, CornerRadius, Margin, Rect, RichText, Stroke, Ui};
 
 use super::diagnostics::place_text;
+use super::left::capital;
 use crate::live::Message;
-use crate::window::desk::{Desk, Show, Standing};
+use crate::window::desk::{Desk, Standing};
 use crate::window::take::Care;
 use crate::window::theme;
 
@@ -53,24 +54,23 @@ fn place(ui: &Ui, name: &str, align: Align2, area: Rect, inset: egui::Vec2, add:
 }
 
 fn names(ui: &Ui, area: Rect, desk: &Desk) {
-    if desk.drawn.is_none() {
-        return;
-    }
-    let touched = desk.viewpoint.is_some_and(|viewpoint| viewpoint.given().is_none());
+    // What is on the screen, which may not yet be what was asked for.
+    let Some(wish) = desk.drawn.as_ref().map(|drawn| &drawn.wish) else { return };
+    let touched = wish.viewpoint.given().is_none();
     place(ui, "names", Align2::LEFT_TOP, area, egui::vec2(12.0, 12.0), |ui| {
         chip(SHADE).show(ui, |ui| {
             ui.horizontal(|ui| {
-                ui.label(RichText::new(&desk.view_name).color(theme::STRONG));
+                ui.label(RichText::new(&wish.shown.views[wish.view].name).color(theme::STRONG));
                 if touched {
                     ui.label(RichText::new(if desk.flying { "flying" } else { "free camera" }).color(theme::WEAK));
                 }
-                if desk.show != Show::Split {
-                    ui.label(RichText::new(desk.show.name()).color(theme::ACCENT));
+                if let [kind] = wish.kinds[..] {
+                    ui.label(RichText::new(capital(kind.name())).color(theme::ACCENT));
                 }
             });
         });
     });
-    if desk.show == Show::Split {
+    if wish.kinds.len() == 2 {
         let sides = [("before", Align2::LEFT_BOTTOM, "Before"), ("after", Align2::RIGHT_BOTTOM, "After")];
         for (name, align, word) in sides {
             place(ui, name, align, area, egui::vec2(12.0, 12.0), |ui| {

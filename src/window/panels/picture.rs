@@ -8,7 +8,7 @@ use glam::DVec3;
 
 use super::{Action, over};
 use crate::plan::demand::Camera;
-use crate::window::desk::{Desk, Show};
+use crate::window::desk::Desk;
 use crate::window::picture::{Picture, outline};
 use crate::window::take::Kind;
 use crate::window::theme;
@@ -51,7 +51,7 @@ pub fn show(ui: &mut Ui, desk: &mut Desk, canvas: &mut Canvas, actions: &mut Vec
         let response = ui.allocate_rect(area, Sense::click_and_drag());
         paint(ui, area, desk, canvas);
         hands(ui, area, &response, desk, canvas, actions);
-        if desk.show == Show::Split {
+        if desk.drawn.as_ref().is_some_and(|drawn| drawn.pictures.len() == 2) {
             bar(ui, desk, canvas);
         }
         over::show(ui, area, desk);
@@ -186,14 +186,14 @@ fn pixel_in(rect: Rect, (width, height): (u32, u32), at: Pos2) -> Pixel {
     Pixel { x: f64::from(share.x) * f64::from(width), y: f64::from(share.y) * f64::from(height) }
 }
 
-/// Which picture lies under a point of the screen.
+/// Which picture lies under a point of the screen; the right one of a split from its bar on.
 fn under(desk: &Desk, rect: Rect, at: Pos2) -> Kind {
-    match desk.show {
-        Show::Before => Kind::Before,
-        Show::After => Kind::After,
-        Show::Mask => Kind::Mask,
-        Show::Split if at.x < rect.left() + rect.width() * desk.bar as f32 => Kind::Before,
-        Show::Split => Kind::After,
+    let kinds = desk.drawn.as_ref().map(|drawn| &drawn.wish.kinds[..]);
+    match kinds {
+        Some(&[left, _]) if at.x < rect.left() + rect.width() * desk.bar as f32 => left,
+        Some(&[_, right]) => right,
+        Some(&[kind]) => kind,
+        _ => Kind::After,
     }
 }
 

@@ -82,9 +82,17 @@ impl Editor {
     }
 
     pub fn send(&mut self, message: &Value) {
-        let text = message.to_string();
+        self.send_all(std::slice::from_ref(message));
+    }
+
+    /// Sends messages in one piece.
+    pub fn send_all(&mut self, messages: &[Value]) {
+        let frame = |message: &Value| {
+            let text = message.to_string();
+            format!("Content-Length: {}\r\n\r\n{text}", text.len())
+        };
         let stdin = self.stdin.as_mut().expect("the input is open");
-        write!(stdin, "Content-Length: {}\r\n\r\n{text}", text.len()).expect("the server listens");
+        stdin.write_all(messages.iter().map(frame).collect::<String>().as_bytes()).expect("the server listens");
         stdin.flush().expect("the server listens");
     }
 

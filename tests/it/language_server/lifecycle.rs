@@ -45,13 +45,16 @@ fn leaving_without_shutdown_is_a_failure() {
 #[test]
 fn a_request_that_was_taken_back_is_answered_as_such() {
     let mut editor = Editor::new(&[]);
-    editor.open("a.cga", &format!("Lot --> {}\n", "extrude(3) ".repeat(20_000)));
-    let first = editor.ask("textDocument/documentSymbol", json!({ "textDocument": { "uri": editor.uri("a.cga") } }));
-    // While the first one is at work, the second one waits behind it, with its cancellation.
-    let second = editor.ask("textDocument/documentSymbol", json!({ "textDocument": { "uri": editor.uri("a.cga") } }));
-    editor.notify("$/cancelRequest", json!({ "id": second }));
-    assert!(editor.answer(first).is_ok());
-    assert_eq!(editor.answer(second).expect_err("cancelled")["code"], json!(-32800));
+    editor.open("a.cga", &format!("Lot --> {}\n", "extrude(3) ".repeat(5_000)));
+    let params = json!({ "textDocument": { "uri": editor.uri("a.cga") } });
+    // All at once: while the first requests are at work, the last one waits behind them, with its cancellation.
+    let request =
+        |id: i64| json!({ "jsonrpc": "2.0", "id": id, "method": "textDocument/semanticTokens/full", "params": params });
+    let mut messages: Vec<Value> = (1001..=1020).map(request).collect();
+    messages.push(json!({ "jsonrpc": "2.0", "method": "$/cancelRequest", "params": { "id": 1020 } }));
+    editor.send_all(&messages);
+    assert!(editor.answer(1001).is_ok());
+    assert_eq!(editor.answer(1020).expect_err("cancelled")["code"], json!(-32800));
 }
 
 #[test]

@@ -84,9 +84,11 @@ impl Display {
     pub fn drag(&self, from: (i16, i16), to: (i16, i16)) {
         self.move_to(from.0, from.1);
         self.fake(BUTTON_PRESS, 1, (0, 0));
-        for step in 1..=4 {
-            let along = |a: i16, b: i16| a + (b - a) * step / 4;
+        // Slowly enough for a window that is drawn in software beside a scene that is.
+        for step in 1..=10 {
+            let along = |a: i16, b: i16| a + (b - a) * step / 10;
             self.move_to(along(from.0, to.0), along(from.1, to.1));
+            std::thread::sleep(Duration::from_millis(140));
         }
         self.fake(BUTTON_RELEASE, 1, (0, 0));
     }
