@@ -39,17 +39,19 @@ pub struct SunAngles {
 }
 
 impl Overrides {
-    /// Index of the scene to show; the first where the name is not (or no longer) there.
-    pub fn scene_of(&self, spec: &RenderSpec) -> usize {
-        let named = |name: &String| spec.scenes.iter().position(|scene| scene.name == *name);
-        self.scene.as_ref().and_then(named).unwrap_or(0)
+    /// Index of the scene to show, or what is to be said where the recipe has none of that name (any more).
+    pub fn scene_of(&self, spec: &RenderSpec) -> Result<usize, String> {
+        let Some(name) = &self.scene else { return Ok(0) };
+        spec.scenes.iter().position(|scene| scene.name == *name).ok_or_else(|| {
+            let names: Vec<&str> = spec.scenes.iter().map(|scene| scene.name.as_str()).collect();
+            format!("the recipe has no scene `{name}`; it has {}", names.join(", "))
+        })
     }
 
     /// Puts the values into a recipe.
     pub fn apply(&self, spec: &mut RenderSpec) {
-        let scene = self.scene_of(spec);
-        if let (Some(seed), Some(scene)) = (self.seed, spec.scenes.get_mut(scene)) {
-            scene.seed = seed;
+        if let (Some(seed), Ok(scene)) = (self.seed, self.scene_of(spec)) {
+            spec.scenes[scene].seed = seed;
         }
         let levels = spec.changes.iter_mut().flat_map(|change| &mut change.levels);
         let of_levels = levels.flat_map(|level| match &mut level.effect {

@@ -169,7 +169,7 @@ impl Session {
         };
         recipe.spec = spec.clone();
         overrides.apply(&mut recipe.spec);
-        let scene = overrides.scene_of(&recipe.spec);
+        let scene = overrides.scene_of(&recipe.spec).map_err(|message| Failed::Told(vec![Message::plain(message)]))?;
         let name = recipe.spec.scenes[scene].name.clone();
         let memory = self.memories.entry(name).or_insert_with(Memory::keeping);
         let progress = Watching((!self.was_cancelled).then_some(&*self.stop));

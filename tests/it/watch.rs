@@ -226,6 +226,8 @@ fn a_thousand_saves_end_in_the_last_one() {
 fn one_update_and_a_recipe_that_is_not_there() {
     let shop = shop();
     shop.run(&["watch", "town.render", "--headless", "--once"]).expect(0);
+    let elsewhere = shop.run(&["watch", "town.render", "--headless", "--once", "--scene", "elsewhere"]).expect(1);
+    assert!(elsewhere.stdout.contains("has no scene `elsewhere`; it has "), "{}", elsewhere.stdout);
     shop.write("lot.cga", "Lot --> (");
     let run = shop.run(&["watch", "town.render", "--headless", "--updates", "1"]).expect(1);
     assert_eq!(run.stdout.lines().count(), 1);
