@@ -15,7 +15,7 @@ use crate::diagnostics::{Diagnostics, Severity};
 use crate::geometry::{Face, Mesh};
 use crate::interpreter::seed::Seed;
 use crate::interpreter::{FileAssets, Limits, StartShape, derive_watched};
-use crate::live::usage;
+use crate::live::{thousands, usage};
 use crate::pipeline::{PipelineError, RecipeOptions, load_recipe_over};
 use crate::source::{Access, Overlay, SourceMap, Span};
 
@@ -180,28 +180,5 @@ fn first_error(found: &Diagnostics) -> String {
 
 fn summary(lenses: &Lenses, took: Duration) -> String {
     let leaves: u64 = lenses.counts.values().map(|count| count.leaves).sum();
-    format!("{}: {} leaves in {:.0} ms", lenses.subject, grouped(leaves), took.as_secs_f64() * 1000.0)
-}
-
-/// `1,204`.
-pub fn grouped(number: u64) -> String {
-    let digits = number.to_string();
-    let mut out = String::new();
-    for (i, digit) in digits.chars().enumerate() {
-        if i > 0 && (digits.len() - i).is_multiple_of(3) {
-            out.push(',');
-        }
-        out.push(digit);
-    }
-    out
-}
-
-#[cfg(test)]
-mod tests {
-    use super::grouped;
-
-    #[test]
-    fn numbers_are_grouped_by_thousands() {
-        assert_eq!([0, 999, 1204, 1_234_567].map(grouped), ["0", "999", "1,204", "1,234,567"]);
-    }
+    format!("{}: {} leaves in {:.0} ms", lenses.subject, thousands(leaves as usize), took.as_secs_f64() * 1000.0)
 }

@@ -5,6 +5,7 @@
 //! ([`crate::pipeline`]), with a memory that keeps what is still valid; no window and no output here.
 
 mod canvas;
+mod number;
 mod overrides;
 mod picking;
 mod session;
@@ -13,6 +14,7 @@ mod usage;
 mod watcher;
 
 pub use canvas::{Canvas, Drawing, Shown, demand_of};
+pub use number::thousands;
 pub use overrides::{AttributeOverride, Overrides, SunAngles};
 pub use picking::{LeafInfo, LotInfo, Ray};
 pub use session::{RuleFile, Session};

@@ -4,10 +4,11 @@ use lsp_types::{CodeLens, CodeLensParams, Command};
 use serde_json::json;
 
 use super::execute_command::DERIVE;
-use crate::language_server::derivation::{Count, Rule, grouped};
+use crate::language_server::derivation::{Count, Rule};
 use crate::language_server::rule_file::Kind;
 use crate::language_server::server::Refusal;
 use crate::language_server::workspace::{Language, Workspace};
+use crate::live::thousands;
 
 pub fn code_lens(workspace: &mut Workspace, params: CodeLensParams) -> Result<Vec<CodeLens>, Refusal> {
     let uri = params.text_document.uri;
@@ -40,7 +41,7 @@ fn told(count: Count) -> String {
     let Count { calls, leaves, milliseconds } = count;
     let some = |number: u64, one: &str, many: &str| match number {
         1 => format!("1 {one}"),
-        number => format!("{} {many}", grouped(number)),
+        number => format!("{} {many}", thousands(number as usize)),
     };
     let time = if milliseconds < 10.0 { format!("{milliseconds:.1} ms") } else { format!("{milliseconds:.0} ms") };
     match (calls, leaves) {

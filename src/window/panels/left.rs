@@ -3,7 +3,7 @@
 use egui::{RichText, Ui};
 
 use super::{Action, fixed};
-use crate::live::SunAngles;
+use crate::live::{SunAngles, thousands};
 use crate::window::desk::{Desk, Show};
 use crate::window::theme;
 
@@ -28,19 +28,6 @@ fn heading(ui: &mut Ui, desk: &Desk) {
     };
     let objects = shown.built.record.features;
     ui.label(RichText::new(format!("{objects} features · {} triangles", thousands(shown.triangles))).weak());
-}
-
-/// 1234567 → 1,234,567.
-pub fn thousands(number: usize) -> String {
-    let digits = number.to_string();
-    let mut out = String::new();
-    for (i, digit) in digits.chars().enumerate() {
-        if i > 0 && (digits.len() - i).is_multiple_of(3) {
-            out.push(',');
-        }
-        out.push(digit);
-    }
-    out
 }
 
 fn state(ui: &mut Ui, desk: &mut Desk, actions: &mut Vec<Action>) {
@@ -215,9 +202,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_for_people() {
-        let numbers = [0, 12, 999, 1000, 12_345, 1_234_567].map(thousands);
-        assert_eq!(numbers, ["0", "12", "999", "1,000", "12,345", "1,234,567"]);
+    fn layers_begin_with_capitals() {
         assert_eq!(capital("terrain"), "Terrain");
     }
 }

@@ -3,8 +3,7 @@
 use egui::{RichText, Ui};
 
 use super::Action;
-use super::left::thousands;
-use crate::live::{LeafInfo, LotInfo};
+use crate::live::{LeafInfo, LotInfo, thousands};
 use crate::plan::demand::State;
 use crate::window::attributes::color_of;
 use crate::window::desk::{Desk, Picked};

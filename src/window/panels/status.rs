@@ -2,8 +2,7 @@
 
 use egui::{RichText, Ui};
 
-use super::left::thousands;
-use crate::live::{Phase, Redone, Update};
+use crate::live::{Phase, Redone, Update, thousands};
 use crate::window::desk::{Desk, Standing};
 use crate::window::take::Care;
 use crate::window::theme;
